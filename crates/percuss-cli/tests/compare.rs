@@ -220,7 +220,7 @@ fn a_failure_is_told_and_named() {
     // Elements that never erode are compressed to nothing at this speed.
     let case = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '9 km/s' }\n\
                 target = { material = 'aluminium-2024-t351', thickness = 'semi-infinite' }\n\
-                chain = { erosion_strain = 'never', courant = 1.0 }";
+                chain = { target_resistance = 'column', erosion_strain = 'never', courant = 1.0 }";
     let said = compare(&shot(case), &["--model", "chain"]);
     assert_eq!(said.code, 2);
     assert!(said.stderr.contains("  chain: failed: "), "{}", said.stderr);

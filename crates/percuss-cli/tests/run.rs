@@ -112,10 +112,15 @@ fn quiet_is_one_line_with_the_values_of_json() {
             }
             "outcome" | "model" => assert_eq!(value, result[name].as_str().unwrap()),
             _ if value == "null" => assert!(result[name].is_null(), "{pair}"),
-            _ => assert_eq!(
-                value.parse::<f64>().unwrap(),
-                result[name].as_f64().unwrap()
-            ),
+            // The JSON reader of this test may miss the last digit.
+            _ => {
+                let (value, of_json) = (value.parse::<f64>().unwrap(), result[name].as_f64());
+                let of_json = of_json.unwrap();
+                assert!(
+                    (value - of_json).abs() <= f64::EPSILON * of_json.abs(),
+                    "{pair}"
+                );
+            }
         }
     }
     for name in ["depth_of_penetration_mm", "ballistic_limit_m_s"] {
@@ -267,7 +272,7 @@ fn a_numerical_failure_has_its_own_exit_code() {
     // Elements that never erode are compressed to nothing at this speed.
     let case = "projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '9 km/s' }\n\
                 target = { material = 'aluminium-2024-t351', thickness = 'semi-infinite' }\n\
-                chain = { erosion_strain = 'never', courant = 1.0 }";
+                chain = { target_resistance = 'column', erosion_strain = 'never', courant = 1.0 }";
     let folder = shot(case);
     let said = percuss(folder.path(), ["run", "--fast", "shot.toml"]);
     assert_eq!(

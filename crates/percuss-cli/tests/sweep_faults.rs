@@ -62,7 +62,7 @@ fn program() -> &'static Path {
 #[test]
 fn a_sweep_that_is_killed_at_random_moments_loses_and_doubles_no_row() {
     let kills: u32 = std::env::var("PERCUSS_KILLS").map_or(6, |text| text.parse().unwrap());
-    let folder = folder(24 * kills);
+    let folder = folder(72 * kills);
     compute(&folder, "whole");
     let whole = merged(&folder, &["whole"]);
     let out = folder.path().join("killed");
@@ -99,7 +99,7 @@ fn a_sweep_that_is_killed_at_random_moments_loses_and_doubles_no_row() {
         .get_row_iter(None)
         .unwrap()
         .map(|row| row.unwrap().get_long(0).unwrap());
-    assert!(shots.eq(0..i64::from(24 * kills)));
+    assert!(shots.eq(0..i64::from(72 * kills)));
 }
 
 /// All parts at once, two of them killed and run again.

@@ -31,6 +31,10 @@ pub struct EnergyLedger {
     pub eroded: f64,
     /// Work that opened cracks: their fracture energy.
     pub fracture: f64,
+    /// Taken by changes of the time step: velocities half a step behind positions keep their energy only while the step stays the same. It
+    /// vanishes with the square of the step.
+    #[serde(default)]
+    pub step_changes: f64,
     /// Lost between particles and grid: motion finer than the grid; it vanishes with the cell size.
     pub transfer: f64,
     /// Kinetic energy of the plate around a plug.
@@ -46,7 +50,7 @@ pub struct EnergyLedger {
 
 impl EnergyLedger {
     /// Labels and values of all lines but the initial energy, in reading order.
-    pub fn lines(&self) -> [(&'static str, f64); 16] {
+    pub fn lines(&self) -> [(&'static str, f64); 17] {
         [
             ("kinetic, projectile", self.kinetic_projectile),
             ("kinetic, target", self.kinetic_target),
@@ -64,12 +68,21 @@ impl EnergyLedger {
             ("elastic, plate", self.elastic_plate),
             ("plastic, plate", self.plastic_plate),
             ("particles to grid", self.transfer),
+            ("changes of the time step", self.step_changes),
         ]
     }
 
     /// Sum of all lines but the initial energy [J].
     pub fn total(&self) -> f64 {
         self.lines().iter().map(|line| line.1).sum()
+    }
+
+    /// Part of the initial energy that changes of the time step took; 0 when nothing moved at the start.
+    pub fn step_change(&self) -> f64 {
+        if self.initial == 0.0 {
+            return 0.0;
+        }
+        self.step_changes / self.initial
     }
 
     /// Part of the initial energy that no line accounts for; 0 when nothing moved at the start.

@@ -86,6 +86,7 @@ pub static SAMPLE_COLUMNS: &[HistoryColumn<Sample>] = columns! { Sample:
     "energy_elastic_plate" J Number energy.elastic_plate, "Elastic energy of the plate around a plug.";
     "energy_plastic_plate" J Number energy.plastic_plate, "Plastic work of bending the plate around a plug.";
     "energy_particles_to_grid" J Number energy.transfer, "Loss between particles and grid; it vanishes with the cell size.";
+    "energy_changes_of_the_time_step" J Number energy.step_changes, "Taken by changes of the time step; it vanishes with the square of the step.";
     "momentum_initial" N_S Number momentum.initial, "Momentum at the start.";
     "momentum_projectile" N_S Number momentum.projectile, "Momentum of the projectile.";
     "momentum_target" N_S Number momentum.target, "Momentum of the target.";

@@ -30,7 +30,7 @@ pub use damage::{Damage, DamageState, PreparedDamage};
 pub use equation_of_state::EquationOfState;
 pub use failure::*;
 pub use library::{Library, MaterialEntry};
-pub use plastic_return::{first_return, plastic_increments};
+pub use plastic_return::plastic_increments;
 pub use references::{Reference, references};
 pub use state_equation::{StateEquation, impedance_match};
 pub use strength::strength_factor;

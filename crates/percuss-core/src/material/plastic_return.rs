@@ -1,6 +1,6 @@
 //! Return of trial stresses to the yield surface: of one body, or of eight side by side.
 
-use super::{Hardening, LaneStrength, LaneTrial, YieldPoint};
+use super::{LaneStrength, LaneTrial, YieldPoint};
 use crate::{
     lanes::{PerLane, Real, larger, smaller},
     power::exponential,
@@ -21,42 +21,6 @@ const MOST_ITERATIONS: u32 = 100;
 pub fn is_last(trial: f64, excess: f64, step: f64, curvature: f64, per: f64) -> bool {
     (excess.abs() <= LARGEST_EXCESS * trial)
         & (0.5 * step * step * curvature <= TOLERANCE * trial * per)
-}
-
-/// What the first step of Newton's method comes to.
-#[derive(Debug, Clone, Copy)]
-pub struct FirstReturn {
-    /// Plastic strain.
-    pub increment: f64,
-    /// Slope of the flow stress with it [Pa].
-    pub strain_slope: f64,
-    /// Whether it is the last step, too.
-    pub is_last: bool,
-}
-
-/// Return of an equivalent stress [Pa] beyond the yield stress to a flow stress that is a power of the plastic strain, as far as the
-/// first step of Newton's method goes: what [`YieldPoint::plastic_increment`] does, for loops over many returns that have been dispatched to an instruction set. The yield stress
-/// and its slope are those at the plastic strain before.
-#[inline(always)]
-pub fn first_return(
-    law: Hardening,
-    [yield_stress, slope]: [f64; 2],
-    plastic_strain: f64,
-    size: f64,
-    modulus: f64,
-) -> FirstReturn {
-    let first = (size - yield_stress) / (modulus + slope);
-    let reached = plastic_strain + first;
-    let (stress, strain_slope) = law.at_here(reached);
-    let excess = size - modulus * first - stress;
-    let step = excess / (modulus + strain_slope);
-    let increment = first + step;
-    let is_last = is_last(size, excess, step, strain_slope * first, reached * first);
-    FirstReturn {
-        increment,
-        strain_slope,
-        is_last: is_last & (increment > 0.0),
-    }
 }
 
 crate::per_lane! {

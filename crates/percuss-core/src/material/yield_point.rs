@@ -192,22 +192,10 @@ impl YieldPoint {
         }))
     }
 
-    /// Flow stress [Pa].
-    #[inline(always)]
-    pub fn stress(&self) -> f64 {
-        self.stress
-    }
-
     /// Slope with the plastic strain [Pa].
     #[inline(always)]
     pub fn strain_slope(&self) -> f64 {
         self.strain_slope
-    }
-
-    /// Says that the state has changed without flow, and the flow stress with it.
-    #[inline(always)]
-    pub fn forget(&mut self) {
-        self.elastic_to = f64::NEG_INFINITY;
     }
 
     /// Whether an equivalent stress [Pa] is known to be elastic.
@@ -252,6 +240,18 @@ impl YieldPoint {
 }
 
 impl<R: Real> YieldPoint<R> {
+    /// Flow stress [Pa].
+    #[inline(always)]
+    pub fn stress(&self) -> R {
+        self.stress
+    }
+
+    /// Says that the state has changed without flow, and the flow stress with it.
+    #[inline(always)]
+    pub fn forget(&mut self) {
+        self.elastic_to = R::all(f64::NEG_INFINITY);
+    }
+
     /// Equivalent stress up to which a stress is known to be elastic [Pa]; −∞ where the slow flow stress is unknown.
     #[inline(always)]
     pub fn elastic_to(&self) -> R {

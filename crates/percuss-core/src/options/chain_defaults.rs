@@ -38,9 +38,9 @@ defaults! { ChainOptions, chain_in_schema {
     max_steps: u64 = MAX_STEPS;
     also projectile_elements = ChainOptions::PROJECTILE_ELEMENTS;
     also kinematics = Kinematics::Logarithmic;
+    also courant = ChainOptions::COURANT;
     depending target_elements: few_elements();
     depending target_resistance: resistance_model();
-    depending courant: courant_by_model();
 } }
 
 fn few_elements() -> String {
@@ -63,23 +63,13 @@ fn resistance_model() -> String {
     )
 }
 
-fn courant_by_model() -> String {
-    format!(
-        "{} with target resistance model `expanding-cavity`, {} with the others",
-        ChainOptions::EXPANDING_CAVITY_COURANT,
-        ChainOptions::COURANT
-    )
-}
-
 impl ChainOptions {
     /// Elements along the projectile.
     pub const PROJECTILE_ELEMENTS: u32 = 40;
     /// Elements through a target that is not thin.
     pub const TARGET_ELEMENTS: u32 = 80;
-    /// Courant number with every target resistance model but `expanding-cavity`.
+    /// Courant number.
     pub const COURANT: f64 = 0.8;
-    /// Courant number with the target resistance model `expanding-cavity`.
-    pub const EXPANDING_CAVITY_COURANT: f64 = 0.5;
 
     /// Elements along the projectile.
     pub fn projectile_elements(&self) -> usize {
@@ -92,12 +82,9 @@ impl ChainOptions {
         self.target_elements.unwrap_or(Self::TARGET_ELEMENTS) as usize
     }
 
-    /// Courant number: of a [`Scenario`](crate::Scenario), where the target resistance model of its case is known.
+    /// Courant number.
     pub fn courant(&self) -> f64 {
-        self.courant.unwrap_or(match self.target_resistance() {
-            TargetResistanceModel::ExpandingCavity => Self::EXPANDING_CAVITY_COURANT,
-            _ => Self::COURANT,
-        })
+        self.courant.unwrap_or(Self::COURANT)
     }
 
     /// What stands for the target: of a [`Scenario`](crate::Scenario), where the default of its case is worked out.

@@ -20,6 +20,9 @@ use crate::{
     outcome::{Numerics, RunResult, Termination},
 };
 
+/// Largest part of the energy that changes of the time step may take: less than 1 % of the depth.
+const LARGEST_STEP_CHANGE: f64 = 5e-3;
+
 /// A run of a solver from impact to its end.
 #[derive(Debug)]
 pub struct Drive<'a, S> {
@@ -182,6 +185,12 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
         energy: EnergyLedger,
         momentum: MomentumLedger,
     ) -> Result<(), AttemptError> {
+        let step_change = energy.step_change();
+        if step_change.abs() > LARGEST_STEP_CHANGE {
+            return Err(AttemptError::Unbalanced(self.lower_courant(format!(
+                "changes of the time step took {step_change:.2e} of the initial energy, above {LARGEST_STEP_CHANGE:e},"
+            ))));
+        }
         let (energy, momentum) = (energy.residual(), momentum.residual());
         let errors = &mut self.monitor.balance_error;
         errors.energy = errors.energy.max(energy.abs());
@@ -192,19 +201,17 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
             ("momentum", momentum, tolerance.momentum),
         ] {
             if error.is_nan() || error.abs() > tolerance {
-                return Err(AttemptError::Unbalanced(
-                    self.unbalanced(quantity, error, tolerance),
-                ));
+                return Err(AttemptError::Unbalanced(self.lower_courant(format!(
+                    "the {quantity} balance does not close: its error is {error:.2e} of the initial {quantity}, above {tolerance:e},"
+                ))));
             }
         }
         Ok(())
     }
 
-    fn unbalanced(&self, quantity: &str, error: f64, tolerance: f64) -> NumericalError {
+    fn lower_courant(&self, what: String) -> NumericalError {
         self.solver.clock().failure(
-            format!(
-                "the {quantity} balance does not close: its error is {error:.2e} of the initial {quantity}, above {tolerance:e},"
-            ),
+            what,
             format!(
                 "lower `{}.courant` (now {})",
                 S::NAMES.0,

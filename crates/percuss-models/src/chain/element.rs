@@ -37,6 +37,25 @@ percuss_core::per_lane! {
     }
 }
 
+impl Plastic {
+    /// Adds an increment of plastic strain under a trial stress of either sign; `per_time` is the inverse of the time step.
+    #[inline(always)]
+    pub(super) fn add(&mut self, increment: f64, trial: f64, per_time: f64) {
+        self.step = increment.copysign(trial);
+        self.axial += self.step;
+        self.strain += increment;
+        self.largest_rate = larger(increment * per_time, self.largest_rate);
+    }
+
+    /// Turns the plastic work of an increment into heat; stresses are those before and after it, and `heating` is the rise in temperature
+    /// per plastic work per volume.
+    #[inline(always)]
+    pub(super) fn heat(&mut self, heating: f64, stresses: [f64; 2], increment: f64) {
+        let work = 0.5 * (stresses[0] + stresses[1]).abs() * increment;
+        self.temperature += heating * work;
+    }
+}
+
 impl Spring {
     /// Takes the stress of a new length, as if nothing flowed.
     #[inline(always)]
@@ -61,14 +80,10 @@ impl Spring {
         [modulus, heating]: [f64; 2],
         per_time: f64,
     ) {
-        plastic.step = increment.copysign(self.stress);
+        plastic.add(increment, self.stress, per_time);
         self.stress -= modulus * plastic.step;
         self.unloaded_length *= exponential(-plastic.step);
-        plastic.axial += plastic.step;
-        plastic.strain += increment;
-        plastic.largest_rate = larger(increment * per_time, plastic.largest_rate);
-        let work = 0.5 * (self.stress_before + self.stress).abs() * increment;
-        plastic.temperature += heating * work;
+        plastic.heat(heating, [self.stress_before, self.stress], increment);
     }
 
     /// Plastic work between the half steps around the current time, per volume.

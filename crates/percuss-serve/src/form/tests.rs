@@ -76,11 +76,7 @@ fn defaults_are_those_of_the_schema() {
     }
     assert!(shown > 10, "{shown}");
     assert_eq!(field("chain.heat_fraction").default.unwrap(), "0.9");
-    assert!(
-        field("chain.courant")
-            .help
-            .contains("Default: 0.5 with target resistance model")
-    );
+    assert_eq!(field("chain.courant").default.unwrap(), "0.8");
 }
 
 #[test]

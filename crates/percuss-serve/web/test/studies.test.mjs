@@ -8,22 +8,25 @@ import { answered, complaints, open, program, root, scratch, serve, study } from
 
 test("a study shows its progress and can be cancelled", async () => {
   const alone = await serve("--max-runs", "1");
-  const page = await open("/", {}, alone.address);
-  // A mesh that keeps a study busy for many seconds.
-  await page.locator("#field-chain-target_elements").fill("200");
-  await answered(page, 2);
-  // Models side by side take the only place first.
-  await page.locator("#comparison-body table").waitFor();
-  const convergence = study(page, "Convergence");
-  await convergence.getByRole("button", { name: "Convergence" }).click();
-  await page.waitForFunction(() => [...document.querySelectorAll("progress")].some((bar) => bar.value > 0));
-  await convergence.getByRole("button", { name: "Cancel" }).click();
-  await convergence.getByText("cancelled").waitFor();
-  // The only place to compute in is free again.
-  await page.locator("#field-projectile-impact_velocity").fill("231");
-  await answered(page, 3);
-  await page.context().close();
-  alone.child.kill();
+  try {
+    const page = await open("/", {}, alone.address);
+    // A mesh that keeps a study busy for many seconds.
+    await page.locator("#field-chain-target_elements").fill("400");
+    await answered(page, 2);
+    // Models side by side take the only place first.
+    await page.locator("#comparison-body table").waitFor();
+    const convergence = study(page, "Convergence");
+    await convergence.getByRole("button", { name: "Convergence" }).click();
+    await page.waitForFunction(() => [...document.querySelectorAll("progress")].some((bar) => bar.value > 0));
+    await convergence.getByRole("button", { name: "Cancel" }).click();
+    await convergence.getByText("cancelled").waitFor();
+    // The only place to compute in is free again.
+    await page.locator("#field-projectile-impact_velocity").fill("231");
+    await answered(page, 3);
+    await page.context().close();
+  } finally {
+    alone.child.kill();
+  }
 });
 
 test("studies come to an end with tables, curves and files", async () => {

@@ -9,7 +9,7 @@ use pulp::NullaryFnOnce;
 use super::{
     blocks::{ahead, behind, first_lanes, sum},
     node::Node,
-    respond::{Stage, Step},
+    respond::{Flow, Stage, Step},
     rod::{Fastest, Rod},
     slice::{Metal, Slice, axial_stress},
 };
@@ -32,41 +32,41 @@ impl NullaryFnOnce for Drift<'_> {
         let step = Step {
             metal: &rod.metal,
             size: &rod.size,
-            hardening: rod.metal.strength.hardening(),
+            depends_on_pressure: rod.metal.strength.depends_on_pressure(),
             time_step,
         };
         let nodes = rod.nodes.blocks();
         rod.stages.resize(nodes.len(), Stage::default());
-        let here = |b: usize| count.saturating_sub(b * LANES).min(LANES);
         // One loop for each stage: the chains of dependent operations are shorter, so that a processor works on several blocks at a time.
         // In memory: what a loop adds to would be taken apart into single numbers.
         let mut least = Lanes::all(f64::INFINITY);
-        let least = settled(&mut least);
+        let (least, mut flows) = (settled(&mut least), false);
         for (b, (slices, stage)) in rod.slices.each_mut().zip(&mut rod.stages).enumerate() {
             let ends = Ends::of(nodes, b);
-            let sizes = step.resize(slices, stage, &ends, first_lanes(here(b)));
+            let present = first_lanes(count.saturating_sub(b * LANES));
+            let sizes = step.resize(slices, stage, &ends, present);
             let before = *least;
             *least = lanes(|l| smaller(sizes[l], before[l]));
-            let from = (b * LANES).min(count);
-            step.strain(slices, stage, &mut rod.particulars[from..from + here(b)]);
+            step.strain(slices, stage, present);
+            flows |= stage.flows;
         }
         if least.iter().any(|size| *size <= 0.0) {
             let is_crushed = |slice: Slice| slice.length <= 0.0 || slice.radius <= 0.0;
             return Err(rod.slices.iter().position(is_crushed).unwrap_or(0));
         }
-        if let Some(law) = step.hardening {
-            let stages = rod.slices.each().zip(&mut rod.stages);
-            for (slices, stage) in stages.filter(|(_, stage)| stage.flows) {
-                step.first_return(slices, stage, law);
-            }
+        if flows {
+            let flow = Flow {
+                step: &step,
+                slices: &mut rod.slices,
+                stages: &mut rod.stages,
+            };
+            flow.by_law();
         }
         let (mut work, mut limits) = (Lanes::all(0.0), Limits::default());
         let (work, limits) = (settled(&mut work), settled(&mut limits));
         for (b, (slices, stage)) in rod.slices.each_mut().zip(&rod.stages).enumerate() {
-            let from = (b * LANES).min(count);
-            let particulars = &mut rod.particulars[from..from + here(b)];
-            add(work, &step.respond(slices, stage, particulars));
-            let present = first_lanes(here(b));
+            add(work, &step.respond(slices, stage));
+            let present = first_lanes(count.saturating_sub(b * LANES));
             let ends = Ends::of(nodes, b);
             limits.follow(step.metal, slices, &stage.inverse, &ends, present);
         }
@@ -156,6 +156,39 @@ impl NullaryFnOnce for Energies<'_> {
         let elastic = slices.sum(|slices| lanes(|l| slices.lane(l).elastic_energy(metal, size)));
         let sheared = shears.sum(|shears| lanes(|l| shears.lane(l).elastic_energy(metal, size)));
         [nodes.kinetic_energy() + radial, elastic + sheared]
+    }
+}
+
+/// Sums up what a change of the time step comes to: forces on the degrees of freedom of a rod times the changes of their velocities in
+/// the last kick [N m/s].
+pub(super) struct ForcedChange<'a> {
+    pub(super) rod: &'a Rod,
+    pub(super) kick: f64,
+}
+
+impl NullaryFnOnce for ForcedChange<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let Self { rod, kick } = self;
+        let ratio = kick / rod.size.radial_mass();
+        let mut last = 0.0;
+        let shears = rod.shears.each().map(|shears| shears.force);
+        let mut shears = shears.chain(std::iter::repeat(Lanes::all(0.0)));
+        let mut widening = 0.0;
+        for (b, slices) in rod.slices.each().enumerate() {
+            let ahead = shears.next().unwrap_or_default();
+            let (own, behind) = (slices.radial_force, behind(&ahead, last));
+            let present = first_lanes(rod.slices.len().saturating_sub(b * LANES));
+            let squares = lanes(|l| {
+                let force = own[l] - behind[l] + ahead[l];
+                present[l] * force * force
+            });
+            widening += sum(&squares);
+            last = ahead[LANES - 1];
+        }
+        rod.nodes.forced_change() + ratio * widening
     }
 }
 

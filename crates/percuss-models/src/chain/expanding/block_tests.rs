@@ -45,8 +45,16 @@ fn step(rod: &mut Rod, time: f64) -> f64 {
 fn bits(rod: &Rod) -> Vec<u64> {
     let of = |slice: Slice| {
         let shape = [slice.length, slice.radius, slice.strain];
-        let forces = [slice.axial_force, slice.radial_force, slice.yield_stress];
-        let reached = [slice.plastic_strain, slice.largest_rate, slice.temperature];
+        let forces = [
+            slice.axial_force,
+            slice.radial_force,
+            slice.yield_point.stress(),
+        ];
+        let reached = [
+            slice.plastic.strain,
+            slice.plastic.largest_rate,
+            slice.plastic.temperature,
+        ];
         [shape, forces, reached].concat()
     };
     let numbers: Vec<f64> = rod.slices.iter().flat_map(of).collect();
@@ -63,12 +71,12 @@ fn flow_of_eight_slices_has_the_bits_of_flow_one_by_one() {
     for _ in 0..300 {
         let time = 0.5 * rod.stable_step(0.02);
         assert_eq!(other.stable_step(0.02), 2.0 * time);
-        let before: Vec<f64> = rod.slices.iter().map(|s| s.plastic_strain).collect();
+        let before: Vec<f64> = rod.slices.iter().map(|s| s.plastic.strain).collect();
         assert_eq!(step(&mut rod, time), step(&mut other, time));
         assert_eq!(bits(&rod), bits(&other));
         let after = rod.slices.iter().zip(before);
         flowing += after
-            .filter(|(s, before)| s.plastic_strain > *before)
+            .filter(|(s, before)| s.plastic.strain > *before)
             .count();
     }
     assert!(flowing > 300 && flowing < 2900, "{flowing}");
@@ -128,7 +136,7 @@ fn slices_do_not_depend_on_the_lane_that_they_are_in() {
             rod.slices
                 .iter()
                 .skip(12)
-                .any(|slice| slice.plastic_strain > 0.0)
+                .any(|slice| slice.plastic.strain > 0.0)
         );
     }
 }

@@ -175,6 +175,11 @@ impl FarField {
         self.nodes.momentum()
     }
 
+    /// Forces times the changes of velocities in the last kick [N m/s].
+    pub(super) fn forced_change(&self) -> f64 {
+        self.nodes.forced_change()
+    }
+
     /// Kinetic and elastic energy [J].
     pub(super) fn energies(&self) -> [f64; 2] {
         self.arch.dispatch(Energies(self))

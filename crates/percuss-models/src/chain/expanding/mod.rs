@@ -203,10 +203,7 @@ impl<'a> Solver<'a> for Cavity<'a> {
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
-        (
-            scenario.options.chain.courant,
-            ChainOptions::EXPANDING_CAVITY_COURANT,
-        )
+        (scenario.options.chain.courant, ChainOptions::COURANT)
     }
 
     fn limits(&self) -> Limits {

@@ -44,6 +44,12 @@ impl Node {
         self.velocity += impulse * self.mobility;
     }
 
+    /// Takes a velocity [m/s] by the end of a kick.
+    pub(super) fn take_velocity(&mut self, velocity: f64) {
+        self.velocity_before = self.velocity;
+        self.velocity = velocity;
+    }
+
     pub(super) fn mass(&self) -> f64 {
         self.mass
     }
@@ -148,6 +154,15 @@ impl Nodes {
             nodes.velocity_before = nodes.velocity;
             nodes.velocity = after;
         }
+    }
+
+    /// Sum of the force of the springs on each node times the change of its velocity in the last kick [N m/s].
+    #[inline(always)]
+    pub(super) fn forced_change(&self) -> f64 {
+        self.sum(|nodes| {
+            let (force, after, before) = (nodes.force, nodes.velocity, nodes.velocity_before);
+            lanes(|l| force[l] * (after[l] - before[l]))
+        })
     }
 
     /// New positions of all nodes.

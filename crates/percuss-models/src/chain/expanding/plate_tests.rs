@@ -175,7 +175,7 @@ fn writing_down_a_default_changes_nothing() {
             "border_shear_law = 'friction'",
             "dishing = false",
             "kinematics = 'logarithmic'",
-            "courant = 0.5",
+            "courant = 0.8",
             "erosion_strain = 2.0",
             "erosion_criterion = 'strain'",
             "artificial_viscosity = { linear = 0.0, quadratic = 0.0 }",

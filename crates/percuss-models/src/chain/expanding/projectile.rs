@@ -190,6 +190,11 @@ impl Projectile {
         }
     }
 
+    /// Forces times the changes of velocities in the last kick [N m/s].
+    pub(super) fn forced_change(&self, kick: f64) -> f64 {
+        self.rods().map(|rod| rod.forced_change(kick)).sum()
+    }
+
     /// Moves on and gives the plastic work [J]; an error names a slice that was crushed.
     pub(super) fn drift(&mut self, time_step: f64) -> Result<f64, usize> {
         let mut work = 0.0;
@@ -349,7 +354,7 @@ pub(super) fn failure_state(slice: &Slice) -> FailureState {
         } else {
             0.0
         },
-        plastic_strain_increment: slice.plastic_step.abs(),
-        temperature: slice.temperature,
+        plastic_strain_increment: slice.plastic.step.abs(),
+        temperature: slice.plastic.temperature,
     }
 }

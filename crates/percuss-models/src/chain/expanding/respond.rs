@@ -5,12 +5,12 @@
 
 use super::{
     block::{Ends, Inverse, add},
-    blocks::{ahead, first_lanes, flags, sum},
-    slice::{Metal, Neighbours, Particulars, Shear, Slice, Undeformed, axial_stress},
+    blocks::{Blocks, ahead, first_lanes, flags, sum},
+    slice::{Metal, Neighbours, Shear, Slice, Undeformed, axial_stress},
 };
 use crate::{
-    lanes::{LANES, Lanes, PerLane, each_of, lanes, larger, settled, smaller},
-    material::{Hardening, YieldPoint, first_return},
+    lanes::{LANES, Lanes, PerLane, lanes, settled, smaller},
+    material::{LaneStrength, LaneTrial, LawVisitor, plastic_increments},
     power::log_ratio,
 };
 
@@ -22,19 +22,16 @@ pub(super) struct Stage {
     trial: Lanes,
     beyond: Lanes,
     pub(super) flows: bool,
-    /// First return to a flow stress that is a power of the plastic strain: increment of the plastic strain, slope of the flow stress, and
-    /// 1 where it is the last one.
+    /// Increment of plastic strain.
     increment: Lanes,
-    slope: Lanes,
-    is_last: Lanes,
 }
 
 /// A step of slices of one metal.
 pub(super) struct Step<'a> {
     pub(super) metal: &'a Metal,
     pub(super) size: &'a Undeformed,
-    /// Strength, where it is a power of the plastic strain.
-    pub(super) hardening: Option<Hardening>,
+    /// Whether the flow stress changes with the pressure alone.
+    pub(super) depends_on_pressure: bool,
     pub(super) time_step: f64,
 }
 
@@ -63,76 +60,75 @@ impl Step<'_> {
 
     /// Strains and pressures of new lengths and radii, and the stress differences if nothing flowed.
     #[inline(always)]
-    pub(super) fn strain(
-        &self,
-        slices: &mut Slice<Lanes>,
-        stage: &mut Stage,
-        particulars: &mut [Particulars],
-    ) {
+    pub(super) fn strain(&self, slices: &mut Slice<Lanes>, stage: &mut Stage, present: &Lanes) {
         let Self { metal, size, .. } = *self;
-        let (length, radius, plastic) = (slices.length, slices.radius, slices.plastic_axial);
+        let (length, radius, plastic) = (slices.length, slices.radius, slices.plastic.axial);
         let axial = lanes(|l| log_ratio(size.length, length[l]));
         let radial = lanes(|l| log_ratio(size.radius, radius[l]));
-        let elastic_to = self.elastic_to(slices, particulars);
         let [bulk, shear] = [metal.bulk_modulus, metal.shear_modulus];
         let pressure = lanes(|l| bulk * (axial[l] + 2.0 * radial[l]));
         let trial = lanes(|l| 2.0 * shear * (axial[l] - radial[l] - 1.5 * plastic[l]));
-        let beyond = flags(|l| trial[l].abs() > elastic_to[l]);
+        if self.depends_on_pressure {
+            slices.yield_point.forget();
+        }
+        let elastic_to = slices.yield_point.elastic_to();
+        let beyond = flags(|l| (present[l] > 0.0) & (trial[l].abs() > elastic_to[l]));
         (stage.trial, stage.beyond, stage.flows) = (trial, beyond, sum(&beyond) > 0.0);
         slices.strain = axial;
         slices.pressure = [slices.pressure[1], pressure];
     }
 
-    /// Stress differences up to which slices are known to be elastic [Pa].
+    /// Finds the plastic strain of slices that flow by a law of the library, eight at a time.
     #[inline(always)]
-    fn elastic_to(&self, slices: &Slice<Lanes>, particulars: &mut [Particulars]) -> Lanes {
-        if self.hardening.is_some() {
-            return slices.yield_stress;
+    fn flow_in_lanes<L>(&self, law: &L, slices: &mut Slice<Lanes>, stage: &mut Stage)
+    where
+        L: PerLane,
+        L::One: LaneStrength,
+    {
+        let per_time = if self.metal.rate_effects {
+            1.0 / self.time_step
+        } else {
+            0.0
+        };
+        let (trial, beyond) = (stage.trial, stage.beyond);
+        let trial = LaneTrial {
+            stress: lanes(|l| trial[l].abs()),
+            modulus: Lanes::all(3.0 * self.metal.shear_modulus),
+            pressure_fall: Lanes::all(0.0),
+            per_time: Lanes::all(per_time),
+            plastic_strain: slices.plastic.strain,
+            temperature: slices.plastic.temperature,
+            pressure: slices.pressure[1],
+        };
+        let mut places = 0;
+        for l in 0..LANES {
+            places |= u8::from(beyond[l] > 0.0) << l;
         }
-        let changes = self.metal.strength.depends_on_pressure();
-        let mut elastic_to = Lanes::all(f64::INFINITY);
-        for (elastic_to, own) in elastic_to.iter_mut().zip(particulars) {
-            if changes {
-                own.yield_point.forget();
-            }
-            *elastic_to = own.yield_point.elastic_to();
-        }
-        elastic_to
+        stage.increment = plastic_increments(law, &mut slices.yield_point, &trial, places);
     }
 
-    /// Returns the stress differences to a flow stress that is a power of the plastic strain, as far as the first step of Newton's method
-    /// goes.
-    #[inline(always)]
-    pub(super) fn first_return(&self, slices: &Slice<Lanes>, stage: &mut Stage, law: Hardening) {
-        let modulus = 3.0 * self.metal.shear_modulus;
-        let (strain, yields, slope) = (slices.plastic_strain, slices.yield_stress, slices.slope);
-        let trial = stage.trial;
-        let [increment, after, is_last] = each_of(|l| {
-            let before = [yields[l], slope[l]];
-            let returned = first_return(law, before, strain[l], trial[l].abs(), modulus);
-            let is_last = if returned.is_last { 1.0 } else { 0.0 };
-            [returned.increment, returned.strain_slope, is_last]
-        });
-        (stage.increment, stage.slope, stage.is_last) = (increment, after, is_last);
+    /// The same by a law of the caller's own, one by one.
+    fn flow_one_by_one(&self, slices: &mut Slice<Lanes>, stage: &mut Stage) {
+        stage.increment = Lanes::all(0.0);
+        for l in (0..LANES).filter(|l| stage.beyond[*l] > 0.0) {
+            let mut one = slices.lane(l);
+            stage.increment[l] = one.plastic_increment(self.metal, stage.trial[l], self.time_step);
+            slices.set_lane(l, one);
+        }
     }
 
     /// Goes on to the stresses and forces; gives the plastic work [J].
     #[inline(always)]
-    pub(super) fn respond(
-        &self,
-        slices: &mut Slice<Lanes>,
-        stage: &Stage,
-        particulars: &mut [Particulars],
-    ) -> Lanes {
-        let step_before = slices.plastic_step;
-        slices.plastic_step = Lanes::all(0.0);
+    pub(super) fn respond(&self, slices: &mut Slice<Lanes>, stage: &Stage) -> Lanes {
+        let step_before = slices.plastic.step;
+        slices.plastic.step = Lanes::all(0.0);
         let difference = settled(if stage.flows {
-            self.flow(slices, stage, particulars)
+            self.flow(slices, stage)
         } else {
             stage.trial
         });
         let (pressure, inverse) = (slices.pressure[1], &stage.inverse);
-        let (before, plastic_step) = (slices.difference[1], slices.plastic_step);
+        let (before, plastic_step) = (slices.difference[1], slices.plastic.step);
         slices.difference = [before, difference];
         let volume = self.size.volume;
         slices.axial_force =
@@ -144,82 +140,27 @@ impl Step<'_> {
         lanes(|l| 0.5 * volume * before[l] * (step_before[l] + plastic_step[l]))
     }
 
-    /// Stress differences after flow.
-    ///
-    /// A strength that is a power of the plastic strain is returned to in all lanes at once, and in single lanes where the first step of
-    /// Newton's method does not reach it. Other laws are in [`Slice::flow`], lane by lane.
+    /// Takes the plastic strains; gives the stress differences that are left [Pa].
     #[inline(always)]
-    fn flow(
-        &self,
-        slices: &mut Slice<Lanes>,
-        stage: &Stage,
-        particulars: &mut [Particulars],
-    ) -> Lanes {
-        let Self {
-            metal, time_step, ..
-        } = *self;
-        let (mut difference, mut left_over) = (stage.trial, stage.beyond);
-        if self.hardening.is_some() {
-            (difference, left_over) = self.harden(slices, stage);
-        }
-        if sum(&left_over) == 0.0 {
-            return difference;
-        }
-        for (l, own) in particulars.iter_mut().enumerate() {
-            if left_over[l] == 0.0 {
-                continue;
-            }
-            let mut one = slices.lane(l);
-            let mut point = match self.hardening {
-                Some(_) => YieldPoint::known(one.yield_stress, one.slope),
-                None => own.yield_point,
-            };
-            let start = [stage.trial[l], one.pressure[1]];
-            difference[l] = one.flow(metal, &mut point, start, time_step);
-            slices.set_lane(l, one);
-            own.yield_point = point;
-        }
-        difference
-    }
-
-    /// Takes the first return in lanes in which it is the last one; gives 1 in those that flow and in which it is not.
-    #[inline(always)]
-    fn harden(&self, slices: &mut Slice<Lanes>, stage: &Stage) -> (Lanes, Lanes) {
-        let modulus = 3.0 * self.metal.shear_modulus;
-        let (per_time, heating) = (1.0 / self.time_step, self.metal.heating);
-        let Stage {
-            trial,
-            beyond,
-            increment,
-            slope,
-            is_last,
+    fn flow(&self, slices: &mut Slice<Lanes>, stage: &Stage) -> Lanes {
+        let Metal {
+            shear_modulus,
+            heating,
             ..
-        } = *stage;
-        let flows = settled(lanes(|l| beyond[l] * is_last[l]));
-        // What does not flow stays what it was.
-        let or = |next: Lanes, before: Lanes| {
-            lanes(|l| if flows[l] > 0.0 { next[l] } else { before[l] })
-        };
-        let step = lanes(|l| increment[l].copysign(trial[l]));
-        let stress = lanes(|l| trial[l] - modulus * step[l]);
-        let before = slices.difference[1];
-        let mean = lanes(|l| 0.5 * (before[l] + stress[l]).abs());
-        slices.plastic_step = or(step, Lanes::all(0.0));
-        let before = slices.plastic_axial;
-        slices.plastic_axial = or(lanes(|l| before[l] + step[l]), before);
-        let before = slices.plastic_strain;
-        slices.plastic_strain = or(lanes(|l| before[l] + increment[l]), before);
-        let before = slices.largest_rate;
-        let rate = lanes(|l| larger(increment[l] * per_time, before[l]));
-        slices.largest_rate = or(rate, before);
-        let before = slices.temperature;
-        let warm = lanes(|l| before[l] + heating * mean[l] * increment[l]);
-        slices.temperature = or(warm, before);
-        slices.slope = or(slope, slices.slope);
-        let yields = lanes(|l| trial[l].abs() - modulus * increment[l]);
-        slices.yield_stress = or(yields, slices.yield_stress);
-        let left_over = settled(lanes(|l| beyond[l] * (1.0 - is_last[l])));
-        (or(stress, trial), left_over)
+        } = *self.metal;
+        let per_time = 1.0 / self.time_step;
+        let (trial, increment) = (stage.trial, stage.increment);
+        let (before, plastic) = (slices.difference[1], slices.plastic);
+        let (mut after, mut difference) = (plastic, trial);
+        for l in 0..LANES {
+            let mut one = plastic.lane(l);
+            one.add(increment[l], trial[l], per_time);
+            difference[l] = trial[l] - 3.0 * shear_modulus * one.step;
+            one.heat(heating, [before[l], difference[l]], increment[l]);
+            after.set_lane(l, one);
+        }
+        slices.plastic = after;
+        difference
     }
 
     /// Lets the shears follow so many slices; adds their plastic work [J].
@@ -241,8 +182,8 @@ impl Step<'_> {
                 ahead(&here.radial_velocity, next.radial_velocity),
             ];
             let yields = [
-                here.yield_stress,
-                ahead(&here.yield_stress, next.yield_stress),
+                here.yield_point.stress(),
+                ahead(&here.yield_point.stress(), next.yield_point.stress()),
             ];
             let before = *shears;
             let present = first_lanes(count.saturating_sub(b * LANES + 1));
@@ -261,6 +202,52 @@ impl Step<'_> {
             }
             *shears = after;
             add(work, &done);
+        }
+    }
+}
+
+/// Finds the plastic strain of all slices that flow.
+pub(super) struct Flow<'a> {
+    pub(super) step: &'a Step<'a>,
+    pub(super) slices: &'a mut Blocks<Slice<Lanes>>,
+    pub(super) stages: &'a mut [Stage],
+}
+
+impl Flow<'_> {
+    /// By the strength law of the metal.
+    #[inline(always)]
+    pub(super) fn by_law(mut self) {
+        match self.step.metal.strength.in_lanes() {
+            Some(law) => law.visit(self),
+            None => {
+                let step = self.step;
+                for (slices, stage) in self.flowing() {
+                    step.flow_one_by_one(slices, stage);
+                }
+            }
+        }
+    }
+
+    /// Blocks with a slice that flows.
+    #[inline(always)]
+    fn flowing(&mut self) -> impl Iterator<Item = (&mut Slice<Lanes>, &mut Stage)> {
+        let stages = self.slices.each_mut().zip(&mut *self.stages);
+        stages.filter(|(_, stage)| stage.flows)
+    }
+}
+
+impl LawVisitor<f64> for Flow<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<L>(mut self, law: &L)
+    where
+        L: PerLane + Copy + Default,
+        L::One: LaneStrength,
+    {
+        let step = self.step;
+        for (slices, stage) in self.flowing() {
+            step.flow_in_lanes(law, slices, stage);
         }
     }
 }

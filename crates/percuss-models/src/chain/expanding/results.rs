@@ -265,9 +265,9 @@ pub(super) fn profile(state: &State) -> Profile {
         length: slice.length,
         stress: slice.axial_stress(),
         strain: slice.strain,
-        plastic_strain: slice.plastic_strain,
+        plastic_strain: slice.plastic.strain,
         diameter: 2.0 * slice.radius,
-        temperature: slice.temperature,
+        temperature: slice.plastic.temperature,
         velocity: 0.5 * (nodes[0].velocity + nodes[1].velocity),
     });
     let far_field = state.far_field.strained().map(|mut spring| {

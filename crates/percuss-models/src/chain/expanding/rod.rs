@@ -6,7 +6,7 @@ use pulp::Arch;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    block::{Collect, Drift, Energies, Kick, Look},
+    block::{Collect, Drift, Energies, ForcedChange, Kick, Look},
     blocks::Blocks,
     node::{Dashpot, Momentum, Node, Nodes},
     projectile::failure_state,
@@ -103,12 +103,11 @@ impl Rod {
             pressure: 0.0,
         };
         let yield_point = YieldPoint::slow(&*metal.strength, &at_rest);
-        let slice = Slice::new(&size, &yield_point, temperature);
+        let slice = Slice::new(&size, yield_point, temperature);
         let particulars = (0..count).map(|i| Particulars {
             initial_position: spacing * (i as f64 + 0.5) - length,
             damage: 0.0,
             parted: false,
-            yield_point,
         });
         let nodes = (0..=count).map(|i| {
             let is_end = i == 0 || i == count;
@@ -160,6 +159,11 @@ impl Rod {
     /// New velocities of all but the tip.
     pub(super) fn kick(&mut self, kick: f64) {
         self.arch.dispatch(Kick { rod: self, kick });
+    }
+
+    /// Forces times the changes of velocities in the last kick [N m/s].
+    pub(super) fn forced_change(&self, kick: f64) -> f64 {
+        self.arch.dispatch(ForcedChange { rod: self, kick })
     }
 
     /// Moves on and gives the plastic work [J]; an error names a slice that was crushed.
@@ -299,5 +303,6 @@ impl Rod {
 }
 
 fn reached(slice: &Slice) -> [f64; 3] {
-    [slice.plastic_strain, slice.largest_rate, slice.temperature]
+    let plastic = &slice.plastic;
+    [plastic.strain, plastic.largest_rate, plastic.temperature]
 }

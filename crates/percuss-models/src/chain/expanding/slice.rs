@@ -10,7 +10,8 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    lanes::{larger, smaller},
+    chain::element::Plastic,
+    lanes::{Real, larger, smaller},
     material::{FlowState, Material, PreparedStrength, Trial, YieldPoint},
 };
 
@@ -98,7 +99,7 @@ percuss_core::per_lane! {
     /// A slice between two nodes of the projectile, or one in every lane. Stresses are those per area at rest in each direction
     /// (Kirchhoff), compression positive, so that their work on logarithmic strains is exact.
     #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-    pub(super) struct Slice<R = f64> {
+    pub(super) struct Slice<R: Real = f64> {
         pub(super) length: R,
         pub(super) radius: R,
         pub(super) radial_velocity: R,
@@ -110,15 +111,9 @@ percuss_core::per_lane! {
         /// Pressure and axial less radial stress, a step before and now.
         pub(super) pressure: [R; 2],
         pub(super) difference: [R; 2],
-        /// Axial plastic strain, compression positive, and its part in the last step.
-        pub(super) plastic_axial: R,
-        pub(super) plastic_step: R,
-        pub(super) plastic_strain: R,
-        pub(super) largest_rate: R,
-        pub(super) temperature: R,
-        /// Flow stress of its yield point [Pa], and its slope with the plastic strain.
-        pub(super) yield_stress: R,
-        pub(super) slope: R,
+        pub(super) plastic: Plastic<R>,
+        /// Where it stands on its yield surface.
+        pub(super) yield_point: YieldPoint<R>,
     }
 }
 
@@ -129,8 +124,6 @@ pub(super) struct Particulars {
     /// By the failure law, failed at 1; and whether it has separated from a neighbour.
     pub(super) damage: f64,
     pub(super) parted: bool,
-    /// Where it stands on its yield surface, unless strength is a power of the plastic strain: then the slice itself says so.
-    pub(super) yield_point: YieldPoint,
 }
 
 /// Axial stress of a slice under a pressure and a difference of axial and radial stress.
@@ -140,13 +133,15 @@ pub(super) fn axial_stress(pressure: f64, difference: f64) -> f64 {
 }
 
 impl Slice {
-    pub(super) fn new(size: &Undeformed, yield_point: &YieldPoint, temperature: f64) -> Self {
+    pub(super) fn new(size: &Undeformed, yield_point: YieldPoint, temperature: f64) -> Self {
         Self {
             length: size.length,
             radius: size.radius,
-            temperature,
-            yield_stress: yield_point.stress(),
-            slope: yield_point.strain_slope(),
+            plastic: Plastic {
+                temperature,
+                ..Plastic::default()
+            },
+            yield_point,
             ..Self::default()
         }
     }
@@ -168,8 +163,8 @@ impl Slice {
     /// Length and radius when it is unloaded [m].
     pub(super) fn unloaded(&self, size: &Undeformed) -> (f64, f64) {
         (
-            size.length * (-self.plastic_axial).exp(),
-            size.radius * (0.5 * self.plastic_axial).exp(),
+            size.length * (-self.plastic.axial).exp(),
+            size.radius * (0.5 * self.plastic.axial).exp(),
         )
     }
 
@@ -187,40 +182,23 @@ impl Slice {
         0.5 * size.radial_mass() * self.radial_velocity * self.radial_velocity
     }
 
-    /// Returns a trial stress difference [Pa] at a pressure [Pa] to the yield surface.
-    pub(super) fn flow(
-        &mut self,
-        metal: &Metal,
-        yield_point: &mut YieldPoint,
-        [trial, pressure]: [f64; 2],
-        time_step: f64,
-    ) -> f64 {
-        let modulus = 3.0 * metal.shear_modulus;
-        let increment = yield_point.plastic_increment(
+    /// Plastic strain that returns a trial stress difference [Pa] to the yield surface, by any strength law.
+    pub(super) fn plastic_increment(&mut self, metal: &Metal, trial: f64, time_step: f64) -> f64 {
+        self.yield_point.plastic_increment(
             &*metal.strength,
             &FlowState {
-                plastic_strain: self.plastic_strain,
+                plastic_strain: self.plastic.strain,
                 strain_rate: 0.0,
-                temperature: self.temperature,
-                pressure,
+                temperature: self.plastic.temperature,
+                pressure: self.pressure[1],
             },
             &Trial {
                 stress: trial.abs(),
-                modulus,
+                modulus: 3.0 * metal.shear_modulus,
                 pressure_fall: 0.0,
                 elapsed: metal.rate_effects.then_some(time_step),
             },
-        );
-        self.yield_stress = yield_point.stress();
-        self.slope = yield_point.strain_slope();
-        self.plastic_step = increment.copysign(trial);
-        let difference = trial - modulus * self.plastic_step;
-        self.plastic_axial += self.plastic_step;
-        self.plastic_strain += increment;
-        self.largest_rate = self.largest_rate.max(increment * (1.0 / time_step));
-        let mean = 0.5 * (self.difference[1] + difference).abs();
-        self.temperature += metal.heating * mean * increment;
-        difference
+        )
     }
 }
 

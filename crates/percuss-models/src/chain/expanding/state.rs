@@ -30,6 +30,7 @@ pub(super) struct Accumulators {
     pub(super) initial_momentum: f64,
     pub(super) plastic: [f64; 2],
     pub(super) contact_loss: f64,
+    pub(super) step_changes: f64,
     /// Work of the contact force on the displacement of the mouth by reflected waves [J].
     pub(super) reflected_work: f64,
     pub(super) damping_impulse: f64,
@@ -118,6 +119,11 @@ impl State {
             .as_mut()
             .map_or(0.0, |face| face.begin_step(self.time, time_step));
         self.kick_floor(kick, gain);
+        let change = step.length - step.before;
+        if change != 0.0 {
+            let forced = self.rod.forced_change(kick) + self.far_field.forced_change();
+            self.accumulated.step_changes += 0.25 * change * forced;
+        }
         if control.is_damped() || control.fails {
             self.account_for_damping(kick);
             self.rod.close_interfaces(kick, time_step);
@@ -306,8 +312,8 @@ impl State {
             * (tip_force * (tip.velocity + common)
                 + far_field_force * (far_field.velocity + below));
         let impulse = far_field.mass() * (below - far_field.velocity) - far_field_force * kick;
-        tip.velocity = common;
-        far_field.velocity = below;
+        tip.take_velocity(common);
+        far_field.take_velocity(below);
         self.rod.front.nodes.set_last(tip);
         self.far_field.nodes.set(0, far_field);
         self.floor.speed = 0.0;
@@ -387,6 +393,7 @@ impl State {
         energy.contact = self.accumulated.contact_loss + self.rod.contact_loss;
         energy.boundary = self.far_field.passed_work + self.accumulated.reflected_work;
         energy.eroded = self.accumulated.eroded_energy;
+        energy.step_changes = self.accumulated.step_changes;
         energy
     }
 
