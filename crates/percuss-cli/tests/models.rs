@@ -57,7 +57,7 @@ fn models_as_json_hold_their_whole_validity_domain() {
     assert_eq!(list[0]["name"], "chain");
     assert_eq!(list[0]["validity"]["noses"], serde_json::json!(["flat"]));
     assert_eq!(
-        list[3]["options"],
+        list[4]["options"],
         serde_json::json!(["projectile_strength", "target_resistance"])
     );
     let keys =

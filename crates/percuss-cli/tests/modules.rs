@@ -143,7 +143,7 @@ fn research_is_apart() {
 #[test]
 fn no_kind_of_model_uses_another() {
     let graph = ModuleGraph::read(&crates()["percuss-models"]);
-    let kinds = ["analytic", "axi", "chain", "fdm"];
+    let kinds = ["analytic", "axi", "chain", "fdm", "particles"];
     assert!(kinds.iter().all(|kind| graph.modules.contains(*kind)));
     let text = graph.describe(|from, to| kinds.contains(&from) && kinds.contains(&to));
     assert!(text.is_empty(), "{text}");

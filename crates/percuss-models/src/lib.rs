@@ -7,6 +7,7 @@ pub mod axi;
 pub mod chain;
 pub mod fdm;
 pub mod model;
+pub mod particles;
 
 // What the models use of the core.
 #[cfg(test)]

@@ -14,6 +14,7 @@ use crate::{
     chain::Chain,
     error::nearest,
     fdm::Fdm,
+    particles::Particles,
 };
 
 pub use choice::{ChosenModel, DEFAULT_MODEL, choose, default_model};
@@ -31,6 +32,7 @@ pub static MODELS: &[&dyn Model] = &[
     &Chain,
     &Fdm,
     &Axi,
+    &Particles,
     &Tate,
     &WalkerAnderson,
     &LanzOdermatt,

@@ -26,6 +26,8 @@ pub(crate) const INTRODUCTION: Duration = Duration::from_secs(20);
 const LAYERS: usize = 40;
 /// Largest number of cells along the radius of a projectile.
 const CELLS_PER_RADIUS: u32 = 16;
+/// Most particles of a lattice.
+const PARTICLES: f64 = 100_000.0;
 
 /// RequestLimits of what a request may ask for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,7 +93,17 @@ impl RequestLimits {
             ));
         }
         let cells = options.axi.cells_per_radius();
-        if model.is_two_dimensional() && cells > CELLS_PER_RADIUS {
+        let particles = percuss::particles::particles(scenario);
+        if model.name() == "particles" && particles > PARTICLES {
+            return Err(Problem::too_large(
+                format!("the lattice has {particles:.0} particles"),
+                format!(
+                    "the page allows up to {PARTICLES}; use `percuss run --model particles` for more"
+                ),
+                "particles.spacing",
+            ));
+        }
+        if model.name() == "axi" && cells > CELLS_PER_RADIUS {
             return Err(Problem::too_large(
                 format!("the mesh has {cells} cells along the projectile's radius"),
                 format!(

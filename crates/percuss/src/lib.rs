@@ -32,7 +32,7 @@ pub use percuss_core::{
 #[doc(inline)]
 pub use percuss_input::{case, inputs};
 #[doc(inline)]
-pub use percuss_models::{analytic, axi, chain, fdm, model};
+pub use percuss_models::{analytic, axi, chain, fdm, model, particles};
 #[doc(inline)]
 pub use percuss_studies::{
     axisymmetric, calibrate, compare, converge, experiments, limit, model_error, summary, sweep,

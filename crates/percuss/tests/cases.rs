@@ -212,6 +212,8 @@ cases! {
     taylor_copper_wilkins: "taylor-copper-wilkins",
     taylor_copper_hot: "taylor-copper-hot",
     elastic_bars: "elastic-bars",
+    lattice_strip_on_wall: "lattice-strip-on-wall",
+    rigid_on_glass_plane: "rigid-on-glass-plane",
     spall_two_plates: "spall-two-plates",
     spall_delayed: "spall-delayed",
     torn_off_by_johnson_cook: "torn-off-by-johnson-cook",

@@ -20,6 +20,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("rod", "fdm", COLUMN_WITHOUT_EROSION),
     ("planar impact with spall", "fdm", SPALL),
     ("plug that damage cuts out", "axi", CUT),
+    ("lattice under a rigid nose", "particles", LATTICE),
 ];
 
 const COLUMN: &str = r#"
@@ -35,6 +36,17 @@ const CUT: &str = r#"
     projectile = { material = "tool-steel-hrc53", length = "10 mm", diameter = "20 mm", impact_velocity = "500 m/s" }
     target = { material = "weldox-460-e", thickness = "5 mm", back_face = "free" }
     axi = { cells_per_radius = 4, target_radius = "30 mm" }
+"#;
+const LATTICE: &str = r#"
+    projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "20 m/s", nose = "hemisphere" }
+    target = { material = "hard", thickness = "5 mm", back_face = "free" }
+    particles = { spacing = "0.7 mm", width = "40 mm" }
+    [materials.hard]
+    name = "Elastic"
+    density = "2500 kg/m3"
+    youngs_modulus = "70 GPa"
+    poissons_ratio = 0.22
+    strength.elastic = {}
 "#;
 const PLUG: &str = include_str!("../../../cases/weldox-460e-12mm-blunt/scenario.toml");
 const FAILURE: &str = include_str!("../../../cases/spall-two-plates/scenario.toml");

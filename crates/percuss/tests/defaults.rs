@@ -42,7 +42,14 @@ const PLATE: [&str; 2] = [
     "material = 'weldox-460-e', thickness = '12 mm', back_face = 'free'",
 ];
 
-const TRIES: [Try; 10] = [
+/// A hard pin on an elastic plate, both of own materials.
+const PIN: [&str; 2] = [
+    "material = 'hard', length = '20 mm', diameter = '10 mm', impact_velocity = '20 m/s'",
+    "material = 'hard', thickness = '10 mm', back_face = 'free'",
+];
+const HARD: &str = "materials.hard = { name = 'Elastic', density = '2500 kg/m3', youngs_modulus = '70 GPa', poissons_ratio = 0.22, strength.elastic = {} }";
+
+const TRIES: [Try; 11] = [
     Try {
         shot: THICK,
         model: "chain",
@@ -78,6 +85,12 @@ const TRIES: [Try; 10] = [
         model: "axi",
         table: "axi",
         options: "end_time = '0.2 us'",
+    },
+    Try {
+        shot: PIN,
+        model: "particles",
+        table: "particles",
+        options: HARD,
     },
     of_formula(
         "forrestal",
@@ -204,8 +217,13 @@ fn of_the_axisymmetric_model() {
 }
 
 #[test]
+fn of_particles() {
+    check(6);
+}
+
+#[test]
 fn of_formulae() {
-    (6..TRIES.len()).for_each(check);
+    (7..TRIES.len()).for_each(check);
 }
 
 #[test]

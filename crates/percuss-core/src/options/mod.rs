@@ -15,6 +15,7 @@ mod forrestal_concrete;
 mod lambert_jonas;
 mod lanz_odermatt;
 mod number_or_name;
+mod particles;
 mod plate_cavity;
 mod plugging;
 mod poncelet;
@@ -41,6 +42,7 @@ pub use forrestal_concrete::ForrestalConcreteOptions;
 pub use lambert_jonas::LambertJonasOptions;
 pub use lanz_odermatt::LanzOdermattOptions;
 pub use number_or_name::{ConstraintFactor, ErosionStrain};
+pub use particles::{ParticlesOptions, Space};
 pub use plate_cavity::{CavityShape, PlateCavityOptions};
 pub use plugging::PluggingOptions;
 pub use poncelet::PonceletOptions;
@@ -64,6 +66,7 @@ macro_rules! with_model_options {
             chain: $crate::options::ChainOptions,
             fdm: $crate::options::FdmOptions,
             axi: $crate::options::AxiOptions,
+            particles: $crate::options::ParticlesOptions,
             tate: $crate::options::TateOptions,
             walker_anderson: $crate::options::WalkerAndersonOptions,
             lanz_odermatt: $crate::options::LanzOdermattOptions,

@@ -1,0 +1,95 @@
+//! Options of the model of bonded particles.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::defaults::{MAX_STEPS, defaults};
+use crate::{
+    check::{Check, Limits, limits},
+    problem::Target,
+    units::{Length, Time},
+};
+
+/// Options of the model `particles`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[schemars(transform = particles_in_schema)]
+#[non_exhaustive]
+pub struct ParticlesOptions {
+    /// Plane in which the bodies deform.
+    pub space: Option<Space>,
+    /// Distance of neighbouring particles [m]; it is reduced until whole rows fill the body.
+    pub spacing: Option<Length>,
+    /// Width of the target across the direction of impact [m].
+    pub width: Option<Length>,
+    /// Time step as a part of the largest stable one.
+    pub courant: Option<f64>,
+    /// Time at which a run is ended [s]; long enough for the case to end by itself when not given.
+    pub end_time: Option<Time>,
+    /// Time steps after which a run is ended.
+    pub max_steps: Option<u64>,
+}
+
+/// Plane in which bodies deform.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Space {
+    /// Bodies that are long across the plane: no strain across it. Poisson's ratio up to 1/4.
+    #[default]
+    PlaneStrain,
+    /// Thin plates seen from their face: no stress across the plane. Poisson's ratio up to 1/3.
+    PlaneStress,
+}
+
+impl Space {
+    /// The plane in words.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::PlaneStrain => "plane strain",
+            Self::PlaneStress => "plane stress",
+        }
+    }
+}
+
+/// Time steps, as parts of the largest stable one.
+const COURANT: Limits = Limits {
+    min: 0.01,
+    max: 0.9,
+};
+
+defaults! { ParticlesOptions, particles_in_schema {
+    /// Plane in which the bodies deform.
+    space: Space = Space::PlaneStrain;
+    /// Time step as a part of the largest stable one.
+    courant: f64 = 0.5;
+    /// Time steps after which a run is ended.
+    max_steps: u64 = MAX_STEPS;
+    depending spacing: "a tenth of the projectile's diameter, or of the target's thickness where that is less";
+    depending width: "ten diameters of the projectile, or four thicknesses of the target where those are more";
+} }
+
+impl ParticlesOptions {
+    /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
+    pub fn check(&self, check: &mut Check<'_>, target: &Target) {
+        for (key, length, limits) in [
+            ("spacing", self.spacing, limits::LENGTH),
+            ("width", self.width, limits::LENGTH),
+        ] {
+            if let Some(length) = length {
+                check.quantity(key, length, limits);
+            }
+        }
+        if let Some(courant) = self.courant {
+            check.number("courant", courant, COURANT);
+        }
+        if let Some(time) = self.end_time {
+            check.quantity("end_time", time, limits::TIME);
+        }
+        if self.max_steps == Some(0) {
+            check.fail("max_steps", "0 steps is out of range", "allowed: 1 or more");
+        }
+        if self.width.is_some() && !target.is_solid() {
+            check.fail("width", "a rigid wall has no `width`", "remove the key");
+        }
+    }
+}

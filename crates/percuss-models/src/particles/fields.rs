@@ -1,0 +1,161 @@
+//! Stresses of particles, and fields for pictures and files.
+
+use super::{body::Body, lattice::ROW, shape::Shape};
+use crate::{history::ElementState, solver::Particle};
+
+/// Stress in the plane `[xx, zz, xz]` of a particle [Pa], tension positive: the mean over its volume by the virial of its bonds.
+pub(super) fn stress(body: &Body, row: usize, place: usize) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for kind in 0..3 {
+        add_bond(body, (row, place, kind), &mut sum);
+    }
+    // Bonds that end at the particle.
+    add_bond(body, (row, place - 1, 0), &mut sum);
+    if row > 0 {
+        let above_is_odd = 1 - row % 2;
+        add_bond(body, (row - 1, place - above_is_odd, 1), &mut sum);
+        add_bond(body, (row - 1, place + 1 - above_is_odd, 2), &mut sum);
+    }
+    let inside = body.lattice.spacing * body.lattice.spacing * ROW;
+    let volume = inside * body.rows[row].mass[place] / body.lattice.mass;
+    sum.map(|part| part / volume)
+}
+
+/// Half of a bond's force times its vector.
+fn add_bond(body: &Body, (row, place, kind): (usize, usize, usize), sum: &mut [f64; 3]) {
+    if body.rows[row].weights[kind][place] == 0.0 {
+        return;
+    }
+    let [x, z] = body.bond_of(row, place, kind).force;
+    let (other_row, other) = body.other_end(row, place, kind);
+    let (from, to) = (body.position(row, place), body.position(other_row, other));
+    let [across, along] = [to[0] - from[0], to[1] - from[1]];
+    sum[0] += 0.5 * x * across;
+    sum[1] += 0.5 * z * along;
+    sum[2] += 0.25 * (x * along + z * across);
+}
+
+/// Largest principal stress of the plane [Pa].
+pub(super) fn largest_tension([xx, zz, xz]: [f64; 3]) -> f64 {
+    let half = 0.5 * (xx - zz);
+    0.5 * (xx + zz) + (half * half + xz * xz).sqrt()
+}
+
+/// Particles on the axis and on one side of it: the body is symmetric, and pictures mirror it.
+pub(super) fn half(body: &Body) -> Vec<Particle> {
+    let least = -1e-6 * body.lattice.spacing;
+    body.particles()
+        .filter(|&(row, place)| body.reference(row, place)[0] >= least)
+        .map(|(row, place)| particle(body, row, place))
+        .collect()
+}
+
+fn particle(body: &Body, row: usize, place: usize) -> Particle {
+    let [xx, zz, xz] = stress(body, row, place);
+    let across = body.lattice.out_of_plane * (xx + zz);
+    let pressure = -(xx + zz + across) / 3.0;
+    let spacing = body.lattice.spacing;
+    let mass = body.rows[row].mass[place];
+    let motion = &body.motion[row];
+    Particle {
+        position: body.position(row, place),
+        velocity: [motion.x[place], motion.z[place]],
+        deviator: [xx + pressure, zz + pressure, xz],
+        pressure,
+        mass,
+        volume: mass / body.lattice.mass * ROW * spacing * spacing,
+        sides: [spacing, ROW * spacing],
+        ..Particle::default()
+    }
+}
+
+/// Points that fill one side of a rigid projectile, which show where it is.
+pub(super) fn rigid(
+    shape: &Shape,
+    length: f64,
+    mass: f64,
+    (tip, speed): (f64, f64),
+) -> Vec<Particle> {
+    let size = shape.radius / (shape.radius / (0.1 * shape.radius)).ceil();
+    let mut points = Vec::new();
+    let (columns, rows) = (
+        (shape.radius / size).round() as u32,
+        (length / size).ceil() as u32,
+    );
+    for row in 0..rows {
+        for column in 0..columns {
+            let at = [
+                (f64::from(column) + 0.5) * size,
+                -(f64::from(row) + 0.5) * size,
+            ];
+            if -at[1] < length && shape.penetration(at).is_some() {
+                points.push(at);
+            }
+        }
+    }
+    let share = 0.5 * mass / points.len().max(1) as f64;
+    let of = |[x, z]: [f64; 2]| Particle {
+        position: [x, z + tip],
+        velocity: [0.0, speed],
+        mass: share,
+        volume: size * size,
+        sides: [size, size],
+        ..Particle::default()
+    };
+    points.into_iter().map(of).collect()
+}
+
+/// State of the particle nearest to the axis in every row.
+pub(super) fn along_axis(body: &Body, part: usize) -> Vec<ElementState> {
+    let rows = 0..body.rows.len();
+    rows.map(|row| {
+        let place = axis_place(body, row);
+        let [_, z] = body.reference(row, place);
+        let height = ROW * body.lattice.spacing;
+        let [_, now] = body.position(row, place);
+        let zz = stress(body, row, place)[1];
+        ElementState {
+            part,
+            initial_position: z,
+            position: now,
+            length: height,
+            stress: -zz,
+            strain: -strain(body, row, place),
+            plastic_strain: 0.0,
+            diameter: body.width(),
+            temperature: f64::NAN,
+            velocity: body.motion[row].z[place],
+        }
+    })
+    .collect()
+}
+
+/// Strain along the direction of impact, between the row before and the row behind.
+fn strain(body: &Body, row: usize, place: usize) -> f64 {
+    let first = row.saturating_sub(1);
+    let last = (row + 1).min(body.rows.len() - 1);
+    let of = |row: usize| {
+        let place = if row == first || row == last {
+            axis_place(body, row)
+        } else {
+            place
+        };
+        (body.reference(row, place)[1], body.state[row].z[place])
+    };
+    let ((z, u), (next_z, next_u)) = (of(first), of(last));
+    (next_u - u) / (next_z - z)
+}
+
+/// Place of the particle of a row that is nearest to the axis.
+pub(super) fn axis_place(body: &Body, row: usize) -> usize {
+    let column = -body.origin[0] / body.lattice.spacing - 0.5 * (row % 2) as f64;
+    1 + column.round().max(0.0) as usize
+}
+
+impl Body {
+    /// Mean width across the direction of impact [m].
+    pub(super) fn width(&self) -> f64 {
+        let layers = self.rows.len() as f64 - 1.0;
+        self.area / (layers * ROW * self.lattice.spacing)
+    }
+}

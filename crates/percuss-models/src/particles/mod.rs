@@ -1,0 +1,97 @@
+//! Model `particles`: two-dimensional solids as lattices of bonded particles.
+
+mod body;
+mod bonds;
+mod fields;
+mod lattice;
+mod results;
+mod run;
+mod setup;
+mod shape;
+mod step;
+#[cfg(test)]
+mod tests;
+
+pub use crate::options::{ParticlesOptions, Space};
+
+use crate::{
+    Error, Refusal, Scenario,
+    outcome::{BandQuantity, RunResult},
+    regime::{ProjectileRegime, TargetKind},
+    solver::{Control, CostClass, Model},
+    units::Length,
+    validity::ValidityDomain,
+};
+
+/// Two-dimensional lattice of bonded particles.
+#[derive(Debug, Clone, Copy)]
+pub struct Particles;
+
+/// Number of particles of a case.
+pub fn particles(scenario: &Scenario) -> f64 {
+    setup::extent(scenario).particles()
+}
+
+impl Model for Particles {
+    fn name(&self) -> &'static str {
+        "particles"
+    }
+
+    fn summary(&self) -> &'static str {
+        "2-D bonded particles: elastic waves and rigid impact on elastic plates, per metre of width"
+    }
+
+    fn validity(&self) -> &'static ValidityDomain {
+        const {
+            &ValidityDomain {
+                projectile: &[ProjectileRegime::Rigid],
+                targets: &[
+                    TargetKind::ThickPlate,
+                    TargetKind::Plate,
+                    TargetKind::ThinPlate,
+                    TargetKind::RigidWall,
+                ],
+                predicts: &[BandQuantity::ResidualVelocity],
+                notes: &[
+                    "plane strain or plane stress: the projectile is a strip, and results are per metre of width",
+                    "a rigid projectile on one elastic plate, or an elastic strip on a rigid wall; no plastic flow, no fracture, no \
+                     friction yet",
+                    "Poisson's ratio of the lattice up to 1/4 in plane strain and 1/3 in plane stress",
+                    "never a first choice: for what is axisymmetric use `axi`",
+                ],
+                ..ValidityDomain::OPEN
+            }
+        }
+    }
+
+    fn cost(&self) -> CostClass {
+        CostClass::Minutes
+    }
+
+    fn has_fields(&self) -> bool {
+        true
+    }
+
+    fn is_two_dimensional(&self) -> bool {
+        true
+    }
+
+    fn memory(&self, scenario: &Scenario) -> f64 {
+        setup::memory(scenario)
+    }
+
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
+        setup::not_applicable(scenario)
+    }
+
+    fn refined(&self, scenario: &Scenario, factor: u32) -> Option<Scenario> {
+        let mut refined = scenario.clone();
+        let spacing = setup::extent(scenario).spacing() / f64::from(factor);
+        refined.options.particles.spacing = Some(Length::new(spacing));
+        Some(refined)
+    }
+
+    fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
+        run::ParticlesRun::new(scenario)?.run(control)
+    }
+}

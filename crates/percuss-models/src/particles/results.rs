@@ -1,0 +1,162 @@
+//! Samples, outcome and results of a run.
+
+use super::{fields, run::PlaneImpact, setup, shape::Rigid};
+use crate::{
+    history::{ElementState, Sample},
+    options::Space,
+    outcome::{Detail, Outcome, RunResult, Termination},
+    solver::{interface::Solver, monitor::RunMonitor},
+    units::significant,
+};
+
+/// Part of the impact velocity below which a projectile counts as stopped.
+const REST_FRACTION: f64 = 0.01;
+
+/// Mean velocity of the projectile [m/s].
+fn mean_velocity(run: &PlaneImpact<'_>) -> f64 {
+    run.projectile_momentum() / run.mass
+}
+
+pub(super) fn outcome(run: &PlaneImpact<'_>, termination: Termination) -> Outcome {
+    let velocity = mean_velocity(run);
+    let least = REST_FRACTION * run.scenario.impact_velocity;
+    match termination {
+        Termination::NothingMoves => Outcome::AtRest,
+        Termination::EndTime | Termination::StepLimit => Outcome::OutOfTime,
+        _ if velocity < -least => Outcome::Rebounded,
+        _ if velocity > least => Outcome::Separated,
+        _ => Outcome::AtRest,
+    }
+}
+
+/// State at this time.
+pub(super) fn sample(run: &PlaneImpact<'_>, monitor: &RunMonitor) -> Sample {
+    let (body, state) = (&run.body, &run.state);
+    let last = body.rows.len() - 1;
+    let at = |row: usize| {
+        let place = fields::axis_place(body, row);
+        (body.position(row, place)[1], body.motion[row].z[place])
+    };
+    let ((front, front_velocity), (back, back_velocity)) = (at(0), at(last));
+    let mut sample = Sample::default();
+    sample.time = state.time;
+    sample.step = run.clock().step;
+    sample.mean_velocity = mean_velocity(run);
+    sample.depth = monitor.depth;
+    sample.energy = run.energy();
+    sample.momentum = run.momentum();
+    sample.contact_force = run.contact_force();
+    match run.rigid {
+        Rigid::Wall => {
+            sample.tip_velocity = back_velocity;
+            sample.tail_velocity = front_velocity;
+            sample.interface_velocity = f64::NAN;
+            sample.back_velocity = f64::NAN;
+            sample.tip_position = back;
+            sample.projectile_length = back - front;
+        }
+        Rigid::Projectile(_) => {
+            sample.tip_velocity = state.velocity;
+            sample.tail_velocity = state.velocity;
+            sample.interface_velocity = front_velocity;
+            sample.back_velocity = back_velocity;
+            sample.tip_position = state.tip;
+            sample.projectile_length = run.scenario.projectile.length;
+        }
+    }
+    sample
+}
+
+/// State at a gauge that was at a position before the impact [m]: between the two rows around it.
+pub(super) fn at_gauge(
+    run: &PlaneImpact<'_>,
+    position: f64,
+    rows: &[ElementState],
+) -> ElementState {
+    if position < 0.0 && run.rigid != Rigid::Wall {
+        let gone = ElementState::gone(0, position);
+        return ElementState {
+            position: position + run.state.tip,
+            velocity: run.state.velocity,
+            ..gone
+        };
+    }
+    let behind = rows.partition_point(|row| row.initial_position <= position);
+    let state = match (
+        behind.checked_sub(1).and_then(|row| rows.get(row)),
+        rows.get(behind),
+    ) {
+        (Some(a), Some(b)) => {
+            let way = b.initial_position - a.initial_position;
+            a.between(b, (position - a.initial_position) / way)
+        }
+        (Some(end), None) | (None, Some(end)) => *end,
+        (None, None) => ElementState::gone(run.part(), position),
+    };
+    ElementState {
+        initial_position: position,
+        ..state
+    }
+}
+
+/// Adds velocities, sizes and warnings.
+pub(super) fn complete(run: &PlaneImpact<'_>, result: &mut RunResult, monitor: &RunMonitor) {
+    let velocity = mean_velocity(run);
+    result.residual_velocity = Some(velocity);
+    result.projectile_final_length = Some(match run.rigid {
+        Rigid::Wall => sample(run, monitor).projectile_length,
+        Rigid::Projectile(_) => run.scenario.projectile.length,
+    });
+    if run.rigid != Rigid::Wall {
+        result.largest_depth = Some(monitor.largest_depth);
+    }
+    result.details = details(run);
+    result.warnings = warnings(run, result);
+}
+
+fn details(run: &PlaneImpact<'_>) -> Vec<Detail> {
+    let extent = setup::extent(run.scenario);
+    let body = &run.body;
+    let detail = |name, unit, value| Detail { name, unit, value };
+    vec![
+        detail("spacing of the particles", "mm", body.lattice.spacing * 1e3),
+        detail("particles", "", body.particles().count() as f64),
+        detail("mass of the projectile, a metre wide", "kg", run.mass),
+        detail("width of the lattice", "mm", body.width() * 1e3),
+        detail(
+            "area of the lattice over that of the body",
+            "",
+            body.area / (extent.length * extent.width),
+        ),
+        detail("largest tension", "MPa", run.state.largest_tension * 1e-6),
+        detail(
+            "largest stretch of a bond",
+            "%",
+            100.0 * run.state.largest_stretch,
+        ),
+    ]
+}
+
+fn warnings(run: &PlaneImpact<'_>, result: &RunResult) -> Vec<String> {
+    let across = match run.scenario.options.particles.space() {
+        Space::PlaneStrain => "across the plane",
+        Space::PlaneStress => "of thickness",
+    };
+    let mut warnings = vec![format!(
+        "two-dimensional model: the projectile is a strip, and its mass, forces and energies are per metre {across}; do not \
+         compare them with those of a body of revolution"
+    )];
+    let tension = run.state.largest_tension;
+    warnings.push(format!(
+        "the solid cannot break in this version: the largest tension is {} MPa, and beyond the strength of the material its \
+         answer does not hold",
+        significant(tension * 1e-6, 3)
+    ));
+    if result.outcome == Outcome::OutOfTime {
+        warnings.push(
+            "the run ended before the bodies parted: the residual velocity is that of the moment; raise `particles.end_time`"
+                .to_owned(),
+        );
+    }
+    warnings
+}

@@ -1,0 +1,366 @@
+//! A lattice that meets a rigid body, as a solver.
+
+use std::borrow::Cow;
+
+use rayon::prelude::*;
+
+use super::{
+    body::Body,
+    fields, results, setup,
+    shape::{Contact, Rigid, contact, stiffness},
+};
+use crate::{
+    Error, Scenario,
+    error::NumericalError,
+    history::{ElementState, Profile, Sample},
+    ledger::{EnergyLedger, MomentumLedger},
+    options::ParticlesOptions,
+    outcome::{Outcome, RunResult, Termination},
+    solver::{
+        archive::Archive,
+        driver::Drive,
+        frames::Fields,
+        gauge::Gauge,
+        interface::{Audit, BalanceTolerance, Extremes, Retry, Solver},
+        limits::Limits,
+        monitor::{Clock, Probe, RunMonitor},
+    },
+};
+
+/// Steps between two checks of the balances.
+const INTERVAL: u64 = 50;
+/// Largest stretch of a bond: beyond it no brittle solid is whole, and the model has no fracture yet.
+const LARGEST_STRETCH: f64 = 0.1;
+/// Round trips of a wave through the lattice, or from its middle to its side, without contact after which the bodies have parted.
+const PARTED_AFTER: f64 = 2.0;
+
+/// A lattice and the rigid body that it meets.
+#[derive(Debug)]
+pub(crate) struct PlaneImpact<'a> {
+    pub(super) scenario: &'a Scenario,
+    pub(super) body: Body,
+    pub(super) rigid: Rigid,
+    /// Mass of the projectile [kg per m].
+    pub(super) mass: f64,
+    pub(super) state: State,
+    pub(super) time_step: f64,
+    contact: Contact,
+    initial: (f64, f64),
+}
+
+/// What a step changes beside the lattice.
+#[derive(Debug, Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
+pub(super) struct State {
+    step: u64,
+    pub(super) time: f64,
+    /// Depth of the tip of a rigid projectile [m].
+    pub(super) tip: f64,
+    /// Its velocity, half a step behind [m/s].
+    pub(super) velocity: f64,
+    /// Impulse on what holds the rear face, or on the wall [N s per m].
+    support: f64,
+    /// Time of the last contact [s]; negative before the first.
+    last_contact: f64,
+    /// Largest stretch of a bond so far.
+    pub(super) largest_stretch: f64,
+    /// Largest principal tension of a particle so far [Pa].
+    pub(super) largest_tension: f64,
+}
+
+/// A run of the model.
+pub(super) type ParticlesRun<'a> = Drive<'a, PlaneImpact<'a>>;
+
+impl PlaneImpact<'_> {
+    /// Part of the lattice in results: the projectile is 0.
+    pub(super) fn part(&self) -> usize {
+        usize::from(self.rigid != Rigid::Wall)
+    }
+
+    /// Momentum of the projectile [N s per m].
+    pub(super) fn projectile_momentum(&self) -> f64 {
+        match self.rigid {
+            Rigid::Wall => self.initial.1 - self.state.support,
+            Rigid::Projectile(_) => self.mass * self.state.velocity,
+        }
+    }
+
+    /// Force between the bodies [N per m].
+    pub(super) fn contact_force(&self) -> f64 {
+        self.contact.force.abs()
+    }
+
+    fn find_contact(&mut self) {
+        self.contact = contact(&self.body, self.rigid, self.state.tip);
+    }
+
+    /// Largest stretch of a bond and largest tension of a particle, now or before.
+    fn survey(&mut self) {
+        let body = &self.body;
+        let (stretch, tension) = (0..body.rows.len())
+            .into_par_iter()
+            .map(|row| survey_row(body, row))
+            .reduce(|| (0.0, 0.0), |a, b| (a.0.max(b.0), a.1.max(b.1)));
+        self.state.largest_stretch = self.state.largest_stretch.max(stretch);
+        self.state.largest_tension = self.state.largest_tension.max(tension);
+    }
+}
+
+/// Extremes of a row: only these are compared, so their order is of no account.
+fn survey_row(body: &Body, row: usize) -> (f64, f64) {
+    let mut extremes = (0.0_f64, 0.0_f64);
+    for place in (1..body.stride - 1).filter(|&place| body.rows[row].mass[place] > 0.0) {
+        let tension = fields::largest_tension(fields::stress(body, row, place));
+        extremes.1 = extremes.1.max(tension);
+        for kind in 0..3 {
+            if body.rows[row].weights[kind][place] > 0.0 {
+                let stretch = body.bond_of(row, place, kind).elongation.abs();
+                extremes.0 = extremes.0.max(stretch / body.lattice.spacing);
+            }
+        }
+    }
+    extremes
+}
+
+impl<'a> Solver<'a> for PlaneImpact<'a> {
+    const NAMES: (&'static str, &'static str) = ("particles", "hexagonal");
+    const AUDIT: Audit = Audit {
+        interval: INTERVAL,
+        report_interval: INTERVAL,
+        tolerance: BalanceTolerance {
+            energy: 1e-3,
+            momentum: 1e-9,
+        },
+        retry: Retry::OfBalance { smallest: 0.1 },
+    };
+
+    fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
+        let (body, rigid) = setup::build(scenario);
+        let speed = scenario.impact_velocity;
+        let rod = &scenario.projectile;
+        let mass = match rigid {
+            Rigid::Wall => body.mass(),
+            Rigid::Projectile(shape) => rod.material.density.si() * shape.area(rod.length),
+        };
+        // A particle of the surface has half the mass of one inside, and a spring of the contact beside its bonds.
+        let frequency = body.lattice.largest_frequency();
+        let of_contact =
+            (frequency * frequency + 2.0 * stiffness(&body) / body.lattice.mass).sqrt();
+        let mut impact = Self {
+            scenario,
+            time_step: courant * 2.0 / of_contact,
+            mass,
+            rigid,
+            state: State {
+                velocity: speed,
+                last_contact: -1.0,
+                ..State::default()
+            },
+            contact: Contact::default(),
+            initial: (0.5 * mass * speed * speed, mass * speed),
+            body,
+        };
+        impact.find_contact();
+        Ok(impact)
+    }
+
+    fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
+        let options = &scenario.options.particles;
+        (options.courant, ParticlesOptions::default().courant())
+    }
+
+    fn limits(&self) -> Limits {
+        let options = &self.scenario.options.particles;
+        Limits::new(self.scenario, options.end_time, options.max_steps())
+    }
+
+    fn advance(&mut self) -> Result<(), NumericalError> {
+        let step = self.time_step;
+        self.state.support += self.body.advance(step, &self.contact.loads);
+        match self.rigid {
+            Rigid::Wall => self.state.support -= step * self.contact.force,
+            Rigid::Projectile(_) => {
+                self.state.velocity -= step * self.contact.force / self.mass;
+                self.state.tip += step * self.state.velocity;
+            }
+        }
+        self.state.step += 1;
+        self.state.time += step;
+        self.find_contact();
+        if !self.contact.loads.is_empty() {
+            self.state.last_contact = self.state.time;
+        }
+        if self.state.step.is_multiple_of(INTERVAL) {
+            self.survey();
+        }
+        Ok(())
+    }
+
+    fn clock(&self) -> Clock {
+        Clock {
+            step: self.state.step,
+            time: self.state.time,
+            time_step: self.time_step,
+        }
+    }
+
+    fn probe(&mut self, _: &RunMonitor) -> Probe {
+        let place = fields::axis_place(&self.body, 0);
+        let touches = !self.contact.loads.is_empty();
+        Probe {
+            depth: match self.rigid {
+                Rigid::Wall => 0.0,
+                Rigid::Projectile(_) => self.body.state[0].z[place],
+            },
+            contact_force: self.contact.force.abs(),
+            contact_time: if touches { self.time_step } else { 0.0 },
+        }
+    }
+
+    fn is_at_rest(&self) -> bool {
+        self.projectile_momentum() <= 0.0
+    }
+
+    fn energy(&self) -> EnergyLedger {
+        let sums = self.body.sums(self.time_step, &self.contact.loads);
+        let elastic = sums.elastic + self.contact.energy;
+        let mut energy = EnergyLedger::default();
+        energy.initial = self.initial.0;
+        match self.rigid {
+            Rigid::Wall => {
+                energy.kinetic_projectile = sums.kinetic;
+                energy.elastic_projectile = elastic;
+            }
+            Rigid::Projectile(_) => {
+                let velocity = self.state.velocity;
+                let after = self.mass * velocity - self.time_step * self.contact.force;
+                energy.kinetic_projectile = 0.5 * velocity * after;
+                energy.kinetic_target = sums.kinetic;
+                energy.elastic_target = elastic;
+            }
+        }
+        energy
+    }
+
+    fn momentum(&self) -> MomentumLedger {
+        let lattice = self.body.momentum();
+        let mut momentum = MomentumLedger::default();
+        momentum.initial = self.initial.1;
+        match self.rigid {
+            Rigid::Wall => momentum.projectile = lattice,
+            Rigid::Projectile(_) => {
+                momentum.projectile = self.mass * self.state.velocity;
+                momentum.target = lattice;
+            }
+        }
+        momentum.support = self.state.support;
+        momentum
+    }
+
+    fn progress(&self) -> f64 {
+        let lost = 1.0 - self.projectile_momentum() / self.initial.1;
+        (0.5 * lost).clamp(0.0, 1.0)
+    }
+
+    fn check(&self, _: &RunMonitor) -> Result<(), NumericalError> {
+        if self.state.largest_stretch <= LARGEST_STRETCH {
+            return Ok(());
+        }
+        Err(self.clock().failure(
+            format!(
+                "a bond is stretched or shortened by {:.0} % of its length: the solid would break, and the model has no fracture yet,",
+                100.0 * self.state.largest_stretch
+            ),
+            "lower `projectile.impact_velocity`, blunt the nose, or use another model".to_owned(),
+        ))
+    }
+
+    fn event(&mut self, _: &RunMonitor) -> Result<Option<Termination>, NumericalError> {
+        let State {
+            time,
+            last_contact,
+            velocity,
+            ..
+        } = self.state;
+        let extent = setup::extent(self.scenario);
+        let free = PARTED_AFTER * 2.0 * extent.length.max(0.5 * extent.width)
+            / self.body.lattice.wave_speed;
+        let parted = last_contact >= 0.0 && time > last_contact + free;
+        if !parted || !self.state.step.is_multiple_of(INTERVAL) {
+            return Ok(None);
+        }
+        // A free target may still be slower than a projectile that goes on: then they meet again.
+        let target = self.body.momentum() / self.body.mass();
+        let apart = self.rigid == Rigid::Wall || velocity < target;
+        Ok(apart.then_some(Termination::Parted))
+    }
+
+    fn sample(&self, monitor: &RunMonitor) -> Sample {
+        results::sample(self, monitor)
+    }
+
+    fn gauges(&self, gauges: &[Gauge]) -> Vec<ElementState> {
+        if gauges.is_empty() {
+            return Vec::new();
+        }
+        let rows = fields::along_axis(&self.body, self.part());
+        gauges
+            .iter()
+            .map(|gauge| results::at_gauge(self, gauge.position, &rows))
+            .collect()
+    }
+
+    fn profile(&self) -> Profile {
+        Profile {
+            time: self.state.time,
+            elements: fields::along_axis(&self.body, self.part()),
+        }
+    }
+
+    fn fields(&self) -> Fields<'_> {
+        let lattice = Cow::Owned(fields::half(&self.body));
+        let bodies = match self.rigid {
+            Rigid::Wall => vec![lattice],
+            Rigid::Projectile(shape) => {
+                let motion = (self.state.tip, self.state.velocity);
+                let length = self.scenario.projectile.length;
+                vec![
+                    Cow::Owned(fields::rigid(&shape, length, self.mass, motion)),
+                    lattice,
+                ]
+            }
+        };
+        Fields::Particles {
+            cell: self.body.lattice.spacing,
+            bodies,
+        }
+    }
+
+    fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
+        archive.item(&mut self.state)?;
+        archive.item(&mut self.body.state)?;
+        archive.item(&mut self.body.motion)?;
+        if archive.is_read() {
+            self.find_contact();
+        }
+        Ok(())
+    }
+
+    fn outcome(&self, termination: Termination, _: &RunMonitor) -> (Outcome, String) {
+        (results::outcome(self, termination), String::new())
+    }
+
+    fn extremes(&self) -> Extremes {
+        let particles = self.body.particles().count();
+        Extremes {
+            elements: match self.rigid {
+                Rigid::Wall => (particles, 0),
+                Rigid::Projectile(_) => (0, particles),
+            },
+            ..Extremes::default()
+        }
+    }
+
+    fn complete(&self, result: &mut RunResult, monitor: &RunMonitor) {
+        results::complete(self, result, monitor);
+    }
+}

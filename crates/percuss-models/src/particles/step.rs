@@ -1,0 +1,343 @@
+//! Time step of a body: forces of the rows in order, leapfrog of every particle.
+
+use rayon::prelude::*;
+
+use super::{
+    body::{Body, RowMake, RowMotion, RowState},
+    bonds::{BondForce, Pose, RowForces, Springs, bond, offset},
+    lattice::DIRECTIONS,
+};
+
+/// Rows that one task takes at least, and particles below which one task takes all.
+const LEAST_ROWS: usize = 8;
+const SMALL: usize = 4096;
+
+/// Force of a contact on a particle [N per m].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Load {
+    pub(super) row: usize,
+    pub(super) place: usize,
+    pub(super) force: [f64; 2],
+}
+
+/// Forces on the particles of a row.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Total {
+    pub(super) x: Vec<f64>,
+    pub(super) z: Vec<f64>,
+    pub(super) moment: Vec<f64>,
+}
+
+impl Total {
+    fn new(stride: usize) -> Self {
+        let zeros = || vec![0.0; stride];
+        Self {
+            x: zeros(),
+            z: zeros(),
+            moment: zeros(),
+        }
+    }
+
+    /// Sum of what the bonds of a row and of the row above it do.
+    #[inline(always)]
+    fn sum(&mut self, odd: usize, own: &RowForces, above: &RowForces) {
+        let [along, right, left] = &own.0;
+        let [_, from_left, from_right] = &above.0;
+        let count = self.x.len() - 2;
+        // The row above has the other parity: its bonds to the right start `1 − odd` places before, those to the left one place later.
+        let (first, second) = (odd, odd + 1);
+        for (total, of, sign) in [
+            (
+                &mut self.x,
+                (|f| &f.x) as fn(&super::bonds::KindForces) -> &Vec<f64>,
+                -1.0,
+            ),
+            (&mut self.z, |f| &f.z, -1.0),
+            (&mut self.moment, |f| &f.moment, 1.0),
+        ] {
+            let total = &mut total[1..][..count];
+            let (a, before) = (&of(along)[1..][..count], &of(along)[..count]);
+            let (b, c) = (&of(right)[1..][..count], &of(left)[1..][..count]);
+            let d = &of(from_left)[first..][..count];
+            let e = &of(from_right)[second..][..count];
+            for i in 0..count {
+                total[i] = ((a[i] + b[i]) + c[i]) + sign * ((before[i] + d[i]) + e[i]);
+            }
+        }
+    }
+}
+
+/// Rows that a task computes one after the other.
+struct Slice<'a> {
+    body: &'a Body,
+    first: usize,
+    loads: &'a [Load],
+    /// Time step [s].
+    step: f64,
+    state: &'a mut [RowState],
+    motion: &'a mut [RowMotion],
+}
+
+impl pulp::NullaryFnOnce for Slice<'_> {
+    /// Impulse on the support [N s per m].
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let Self {
+            body,
+            first,
+            loads,
+            step,
+            state,
+            motion,
+        } = self;
+        let springs = body.springs();
+        let mut support = 0.0;
+        let mut forces = Sweep::new(body, &springs, first);
+        for (index, (state, motion)) in state.iter_mut().zip(motion).enumerate() {
+            let row = first + index;
+            forces.next(body, &springs, row, loads);
+            let total = &mut forces.total;
+            if body.is_held(row) {
+                support += step * total.z.iter().sum::<f64>();
+                total.z.fill(0.0);
+            }
+            advance(
+                &body.rows[row],
+                total,
+                step,
+                &body.state[row],
+                state,
+                motion,
+            );
+        }
+        support
+    }
+}
+
+/// Forces of one row after the other.
+struct Sweep {
+    above: RowForces,
+    own: RowForces,
+    total: Total,
+}
+
+impl Sweep {
+    #[inline(always)]
+    fn new(body: &Body, springs: &Springs, first: usize) -> Self {
+        let mut above = RowForces::new(body.stride);
+        if first > 0 {
+            body.row_forces(springs, first - 1, &mut above);
+        }
+        Self {
+            above,
+            own: RowForces::new(body.stride),
+            total: Total::new(body.stride),
+        }
+    }
+
+    #[inline(always)]
+    fn next(&mut self, body: &Body, springs: &Springs, row: usize, loads: &[Load]) {
+        body.row_forces(springs, row, &mut self.own);
+        self.total.sum(row % 2, &self.own, &self.above);
+        let start = loads.partition_point(|load| load.row < row);
+        for load in loads[start..].iter().take_while(|load| load.row == row) {
+            self.total.x[load.place] += load.force[0];
+            self.total.z[load.place] += load.force[1];
+        }
+        std::mem::swap(&mut self.above, &mut self.own);
+    }
+}
+
+impl Body {
+    /// Springs of its bonds.
+    pub(super) fn springs(&self) -> Springs {
+        Springs {
+            length: self.lattice.spacing,
+            normal: self.lattice.normal,
+            shear: self.lattice.shear,
+        }
+    }
+
+    /// Whether a row cannot move along the direction of impact.
+    pub(super) fn is_held(&self, row: usize) -> bool {
+        self.held && row + 1 == self.rows.len()
+    }
+
+    /// Forces of the bonds that start in a row.
+    #[inline(always)]
+    fn row_forces(&self, springs: &Springs, row: usize, forces: &mut RowForces) {
+        let own = &self.state[row];
+        // The last row has no bonds to a next one: their weights are 0.
+        let next = self.state.get(row + 1).unwrap_or(own);
+        forces.compute(springs, row % 2, &self.rows[row].weights, own, next);
+    }
+
+    /// Advances all particles by a step [s] under the loads of contacts, which are in the order of the rows; returns the impulse on the
+    /// support [N s per m]. Every particle sums its own forces in the same order, so threads change no bit.
+    pub(super) fn advance(&mut self, step: f64, loads: &[Load]) -> f64 {
+        let mut motion = std::mem::take(&mut self.motion);
+        let mut next = std::mem::take(&mut self.next);
+        let at_once = self.rows_at_once();
+        let body = &*self;
+        let support: f64 = next
+            .par_chunks_mut(at_once)
+            .zip(motion.par_chunks_mut(at_once))
+            .enumerate()
+            .map(|(slice, (state, motion))| {
+                pulp::Arch::new().dispatch(Slice {
+                    body,
+                    first: slice * at_once,
+                    loads,
+                    step,
+                    state,
+                    motion,
+                })
+            })
+            // The support stands behind the last slice: all others add nothing.
+            .sum();
+        self.motion = motion;
+        self.next = std::mem::replace(&mut self.state, next);
+        support
+    }
+
+    fn rows_at_once(&self) -> usize {
+        let rows = self.rows.len();
+        match rows * self.stride {
+            0..SMALL => rows,
+            _ => rows
+                .div_ceil(4 * rayon::current_num_threads())
+                .max(LEAST_ROWS),
+        }
+    }
+
+    /// Energies now, the velocities taken half a step on under the same loads.
+    pub(super) fn sums(&self, step: f64, loads: &[Load]) -> BodySums {
+        let rows: Vec<BodySums> = (0..self.rows.len())
+            .into_par_iter()
+            .with_min_len(LEAST_ROWS)
+            .map(|row| self.row_sums(row, step, loads))
+            .collect();
+        let mut sums = BodySums::default();
+        for row in rows {
+            sums.kinetic += row.kinetic;
+            sums.elastic += row.elastic;
+            sums.largest_stretch = sums.largest_stretch.max(row.largest_stretch);
+        }
+        sums
+    }
+
+    /// Kinetic energy as `½ m v₋·v₊` of the velocities half a step before and after, with which leapfrog conserves the energy of
+    /// linear springs exactly.
+    fn row_sums(&self, row: usize, step: f64, loads: &[Load]) -> BodySums {
+        let springs = self.springs();
+        let mut sweep = Sweep::new(self, &springs, row);
+        sweep.next(self, &springs, row, loads);
+        let mut total = sweep.total;
+        if self.is_held(row) {
+            total.z.fill(0.0);
+        }
+        let (make, motion) = (&self.rows[row], &self.motion[row]);
+        let mut sums = BodySums::default();
+        for place in 1..self.stride - 1 {
+            let mass = make.mass[place];
+            if mass == 0.0 {
+                continue;
+            }
+            let inertia = 1.0 / make.inverse_inertia[place];
+            for (mass, speed, force) in [
+                (mass, motion.x[place], total.x[place]),
+                (mass, motion.z[place], total.z[place]),
+                (inertia, motion.spin[place], total.moment[place]),
+            ] {
+                sums.kinetic += 0.5 * speed * (mass * speed + step * force);
+            }
+            for kind in 0..3 {
+                let weight = make.weights[kind][place];
+                if weight > 0.0 {
+                    let found = self.bond_of(row, place, kind);
+                    sums.elastic += found.energy;
+                    let stretch = found.elongation.abs() / springs.length;
+                    sums.largest_stretch = sums.largest_stretch.max(stretch);
+                }
+            }
+        }
+        sums
+    }
+
+    /// Momentum along the direction of impact half a step ago [N s per m].
+    pub(super) fn momentum(&self) -> f64 {
+        let rows = self.rows.iter().zip(&self.motion);
+        rows.flat_map(|(make, motion)| make.mass.iter().zip(&motion.z))
+            .map(|(mass, velocity)| mass * velocity)
+            .sum()
+    }
+
+    /// Force and energy of one bond.
+    pub(super) fn bond_of(&self, row: usize, place: usize, kind: usize) -> BondForce {
+        let (other_row, other) = self.other_end(row, place, kind);
+        let weight = self.rows[row].weights[kind][place];
+        let pose = |row: usize, place: usize| {
+            let state = &self.state[row];
+            Pose {
+                displacement: [state.x[place], state.z[place]],
+                turn: [state.cosine[place], state.sine[place]],
+            }
+        };
+        let ends = (pose(row, place), pose(other_row, other));
+        bond(&self.springs(), DIRECTIONS[kind], weight, ends.0, ends.1)
+    }
+
+    /// Row and place of the second particle of a bond.
+    pub(super) fn other_end(&self, row: usize, place: usize, kind: usize) -> (usize, usize) {
+        let other = place.saturating_add_signed(offset(kind, row % 2));
+        (row + usize::from(kind > 0), other)
+    }
+}
+
+/// Energies [J per m] and largest stretch of a bond.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct BodySums {
+    pub(super) kinetic: f64,
+    pub(super) elastic: f64,
+    pub(super) largest_stretch: f64,
+}
+
+/// Leapfrog of the particles of a row.
+#[inline(always)]
+fn advance(
+    make: &RowMake,
+    total: &Total,
+    step: f64,
+    before: &RowState,
+    after: &mut RowState,
+    motion: &mut RowMotion,
+) {
+    let count = make.mass.len();
+    let (inverse_mass, inverse_inertia) =
+        (&make.inverse_mass[..count], &make.inverse_inertia[..count]);
+    for (force, speed, old, new) in [
+        (&total.x, &mut motion.x, &before.x, &mut after.x),
+        (&total.z, &mut motion.z, &before.z, &mut after.z),
+    ] {
+        let (force, speed) = (&force[..count], &mut speed[..count]);
+        let (old, new) = (&old[..count], &mut new[..count]);
+        for i in 0..count {
+            speed[i] += step * force[i] * inverse_mass[i];
+            new[i] = old[i] + step * speed[i];
+        }
+    }
+    let (moment, spin) = (&total.moment[..count], &mut motion.spin[..count]);
+    let (cosine, sine) = (&before.cosine[..count], &before.sine[..count]);
+    let (new_cosine, new_sine) = (&mut after.cosine[..count], &mut after.sine[..count]);
+    for i in 0..count {
+        spin[i] += step * moment[i] * inverse_inertia[i];
+        // Cayley's form of a rotation keeps cosine and sine on the unit circle without a root.
+        let half = 0.5 * step * spin[i];
+        let scale = 1.0 / (1.0 + half * half);
+        let (c, s) = ((1.0 - half * half) * scale, 2.0 * half * scale);
+        new_cosine[i] = c * cosine[i] - s * sine[i];
+        new_sine[i] = s * cosine[i] + c * sine[i];
+    }
+}
