@@ -6,7 +6,7 @@ use std::{
     process::ExitCode,
 };
 
-use percuss::Error;
+use percuss::{Error, Subject};
 use percuss_report::ReportError;
 
 use crate::{
@@ -128,6 +128,7 @@ impl Failure {
             | Self::AxisymmetricStopped => 130,
             Self::Library(Error::Numerical(_) | Error::Cancelled { .. }) | Self::Report(_) => 3,
             Self::Library(Error::Read { .. }) | Self::Write { .. } | Self::Output(_) => 4,
+            Self::Library(Error::Input(error)) if error.subject == Subject::MaterialFile => 4,
             Self::Library(_) => 2,
         })
     }

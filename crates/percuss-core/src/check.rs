@@ -39,6 +39,14 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
+    /// The same of a file of materials that cannot be read.
+    pub fn of_material_file(self) -> Self {
+        Self {
+            subject: Subject::MaterialFile,
+            ..self
+        }
+    }
+
     /// What is wrong in a file as a whole.
     pub fn whole(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self::at("", message, help)

@@ -178,6 +178,8 @@ pub enum Subject {
     Case,
     /// A material, or the name of one.
     Material,
+    /// A file of materials that cannot be read.
+    MaterialFile,
 }
 
 /// What is wrong in a case or material file, and where.

@@ -42,7 +42,7 @@ fn describe(failure: &Failure, attributes: &Bound<'_, PyDict>) -> PyResult<Optio
             attributes.set_item("message", &error.message)?;
             attributes.set_item("help", &error.help)?;
             match error.subject {
-                Subject::Material => "MaterialError",
+                Subject::Material | Subject::MaterialFile => "MaterialError",
                 Subject::Case => "CaseError",
             }
         }

@@ -71,13 +71,12 @@ pub(super) fn library_of(case: &Case, document: &Document) -> Result<Library, Er
     library.add(&case.materials, &format!("{} (this case)", document.name));
     for (i, relative) in case.material_files.iter().enumerate() {
         let refuse = |message: &str, help: &str| {
-            let diagnostic = Diagnostic::at(&format!("material_files.{i}"), message, help);
-            document.place(diagnostic.of_material())
+            Diagnostic::at(&format!("material_files.{i}"), message, help)
         };
         let Some(folder) = &document.folder else {
             let message = "a case that comes from no file cannot name material files";
             let help = "put the materials into its `materials` table";
-            return Err(refuse(message, help).into());
+            return Err(document.place(refuse(message, help).of_material()).into());
         };
         let table = match load_materials(folder.join(relative)) {
             // The case names the file, so the place in the case is what a user has to look at.
@@ -88,7 +87,8 @@ pub(super) fn library_of(case: &Case, document: &Document) -> Result<Library, Er
                     "" => help.to_owned(),
                     remedy => format!("{remedy}; {help}"),
                 };
-                return Err(refuse(&message, &help).into());
+                let refusal = refuse(&message, &help).of_material_file();
+                return Err(document.place(refusal).into());
             }
             other => other?,
         };
