@@ -78,16 +78,16 @@ pub(super) fn bond(
     }
 }
 
-/// Forces [N per m] and moments [N m per m] of one kind of bond along a row.
+/// Forces [N per m] and moments [N m per m] at the places of a row.
 #[derive(Debug, Clone, Default)]
-pub(super) struct KindForces {
+pub(super) struct Forces {
     pub(super) x: Vec<f64>,
     pub(super) z: Vec<f64>,
     pub(super) moment: Vec<f64>,
 }
 
-impl KindForces {
-    fn new(stride: usize) -> Self {
+impl Forces {
+    pub(super) fn new(stride: usize) -> Self {
         let zeros = || vec![0.0; stride];
         Self {
             x: zeros(),
@@ -99,12 +99,12 @@ impl KindForces {
 
 /// Forces of the three kinds of bonds that start in a row.
 #[derive(Debug, Clone, Default)]
-pub(super) struct RowForces(pub(super) [KindForces; 3]);
+pub(super) struct RowForces(pub(super) [Forces; 3]);
 
 impl RowForces {
     /// Without forces, for rows of a number of places.
     pub(super) fn new(stride: usize) -> Self {
-        Self([0, 1, 2].map(|_| KindForces::new(stride)))
+        Self([0, 1, 2].map(|_| Forces::new(stride)))
     }
 
     /// Forces between a row and itself and the next one.
@@ -142,7 +142,7 @@ fn kind(
     row: &RowState,
     other: &RowState,
     start: usize,
-    forces: &mut KindForces,
+    forces: &mut Forces,
 ) {
     let direction = DIRECTIONS[kind];
     let count = weights.len() - 2;

@@ -3,6 +3,9 @@
 use super::{body::Body, lattice::ROW, shape::Shape};
 use crate::{history::ElementState, solver::Particle};
 
+/// Points from the axis of a rigid projectile to its side.
+const COLUMNS: u32 = 10;
+
 /// Stress in the plane `[xx, zz, xz]` of a particle [Pa], tension positive: the mean over its volume by the virial of its bonds.
 pub(super) fn stress(body: &Body, row: usize, place: usize) -> [f64; 3] {
     let mut sum = [0.0; 3];
@@ -76,14 +79,11 @@ pub(super) fn rigid(
     mass: f64,
     (tip, speed): (f64, f64),
 ) -> Vec<Particle> {
-    let size = shape.radius / (shape.radius / (0.1 * shape.radius)).ceil();
+    let size = shape.radius / f64::from(COLUMNS);
     let mut points = Vec::new();
-    let (columns, rows) = (
-        (shape.radius / size).round() as u32,
-        (length / size).ceil() as u32,
-    );
+    let rows = (length / size).ceil() as u32;
     for row in 0..rows {
-        for column in 0..columns {
+        for column in 0..COLUMNS {
             let at = [
                 (f64::from(column) + 0.5) * size,
                 -(f64::from(row) + 0.5) * size,

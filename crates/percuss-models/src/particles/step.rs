@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::{
     body::{Body, RowMake, RowMotion, RowState},
-    bonds::{BondForce, Pose, RowForces, Springs, bond, offset},
+    bonds::{BondForce, Forces, Pose, RowForces, Springs, bond, offset},
     lattice::DIRECTIONS,
 };
 
@@ -20,24 +20,7 @@ pub(super) struct Load {
     pub(super) force: [f64; 2],
 }
 
-/// Forces on the particles of a row.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Total {
-    pub(super) x: Vec<f64>,
-    pub(super) z: Vec<f64>,
-    pub(super) moment: Vec<f64>,
-}
-
-impl Total {
-    fn new(stride: usize) -> Self {
-        let zeros = || vec![0.0; stride];
-        Self {
-            x: zeros(),
-            z: zeros(),
-            moment: zeros(),
-        }
-    }
-
+impl Forces {
     /// Sum of what the bonds of a row and of the row above it do.
     #[inline(always)]
     fn sum(&mut self, odd: usize, own: &RowForces, above: &RowForces) {
@@ -47,11 +30,7 @@ impl Total {
         // The row above has the other parity: its bonds to the right start `1 − odd` places before, those to the left one place later.
         let (first, second) = (odd, odd + 1);
         for (total, of, sign) in [
-            (
-                &mut self.x,
-                (|f| &f.x) as fn(&super::bonds::KindForces) -> &Vec<f64>,
-                -1.0,
-            ),
+            (&mut self.x, (|f| &f.x) as fn(&Forces) -> &Vec<f64>, -1.0),
             (&mut self.z, |f| &f.z, -1.0),
             (&mut self.moment, |f| &f.moment, 1.0),
         ] {
@@ -120,7 +99,7 @@ impl pulp::NullaryFnOnce for Slice<'_> {
 struct Sweep {
     above: RowForces,
     own: RowForces,
-    total: Total,
+    total: Forces,
 }
 
 impl Sweep {
@@ -133,7 +112,7 @@ impl Sweep {
         Self {
             above,
             own: RowForces::new(body.stride),
-            total: Total::new(body.stride),
+            total: Forces::new(body.stride),
         }
     }
 
@@ -308,7 +287,7 @@ pub(super) struct BodySums {
 #[inline(always)]
 fn advance(
     make: &RowMake,
-    total: &Total,
+    total: &Forces,
     step: f64,
     before: &RowState,
     after: &mut RowState,

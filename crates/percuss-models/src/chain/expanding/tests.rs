@@ -196,7 +196,7 @@ fn the_peak_contact_force_converges_to_that_of_a_plane_impact() {
     assert!(peaks.is_sorted(), "{peaks:?}");
     // What is said of the default mesh.
     assert!(
-        (0.85..0.93).contains(&(peaks[0] / exact)),
+        (0.91..0.93).contains(&(peaks[0] / exact)),
         "{}",
         peaks[0] / exact
     );
