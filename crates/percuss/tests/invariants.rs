@@ -289,3 +289,23 @@ fn default_options_carry_every_material() {
         }
     }
 }
+
+/// The energy of staggered velocities jumps where the time step changes. Without a line for that this balance misses by more than 1e-3.
+#[test]
+fn changes_of_the_time_step_have_their_line_in_the_energy_balance() {
+    let text = "[projectile]\nmaterial = 'copper-woodward'\nlength = '15 mm'\ndiameter = '5 mm'\nimpact_velocity = '400 m/s'\n\
+                [target]\nmaterial = 'aluminium-2024-t351-woodward'\nthickness = 'semi-infinite'\n\
+                [chain]\nprojectile_elements = 20\ntarget_elements = 80\ncourant = 0.9\n";
+    let scenario = case::load_str("shot", text).unwrap();
+    let chain = model::model("chain").unwrap();
+    let control = &mut Control::default();
+    let result = model::run(chain, &scenario, control).unwrap();
+    let numerics = result.numerics.unwrap();
+    let share = numerics.energy.step_change();
+    assert!(share.abs() > 3e-4 && share.abs() < 5e-3, "{share}");
+    assert!(
+        numerics.energy_residual < 5e-5,
+        "{}",
+        numerics.energy_residual
+    );
+}
