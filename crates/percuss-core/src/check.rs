@@ -220,13 +220,13 @@ pub mod limits {
     /// Pressure coefficient of the shear modulus [1/Pa], where it is not zero.
     pub const PRESSURE_COEFFICIENT: Limits = limits(1e-12, 1e-9);
     /// Temperature coefficient of the shear modulus [1/K], where it is not zero.
-    pub const TEMPERATURE_COEFFICIENT: Limits = limits(1e-6, 1e-2);
+    pub const TEMPERATURE_COEFFICIENT: Limits = limits(1e-5, 1e-2);
     /// Specific heat [J/(kg K)].
     pub const SPECIFIC_HEAT: Limits = limits(50.0, 10_000.0);
     /// Temperature [K].
     pub const TEMPERATURE: Limits = limits(1.0, 6000.0);
     /// Ratio of yield stress to Young's modulus; a stronger solid than E/10 does not exist.
-    pub const YIELD_TO_MODULUS: Limits = limits(5e-5, 0.1);
+    pub const YIELD_TO_MODULUS: Limits = limits(7e-5, 0.1);
     /// Speed of a wave in a thin bar [m/s].
     pub const BAR_WAVE_SPEED: Limits = limits(250.0, 20_000.0);
     /// Factor on the flow stress of a target.

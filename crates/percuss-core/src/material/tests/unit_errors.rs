@@ -20,7 +20,10 @@ fn quantities(table: &toml::Table) -> Vec<Vec<String>> {
     let mut paths: Vec<Vec<String>> = own.map(|key| vec![(*key).to_owned()]).collect();
     for (law, parameters) in table["strength"].as_table().unwrap() {
         for (key, value) in parameters.as_table().unwrap() {
-            let quantity = value.as_str().is_some_and(|text| text.contains(' '));
+            // A zero stays a zero.
+            let quantity = value
+                .as_str()
+                .is_some_and(|text| text.contains(' ') && !text.starts_with("0 "));
             if quantity && key != "reference_rate" {
                 paths.push(vec!["strength".to_owned(), law.clone(), key.clone()]);
             }
