@@ -47,6 +47,11 @@ pub struct MaterialEntry {
     pub material: Arc<Material>,
 }
 
+/// A name as aliases are written: lower case, with hyphens for blanks and `_`.
+pub(super) fn alias_form(name: &str) -> String {
+    name.trim().to_lowercase().replace([' ', '_'], "-")
+}
+
 /// Materials by id and by family.
 #[derive(Debug, Clone, Default)]
 pub struct Library {
@@ -116,7 +121,7 @@ impl Library {
     /// The records to which an alias leads, one of each family: the recommended one where it has the alias. Case does not matter, and a
     /// blank or `_` stands for `-`.
     pub fn with_alias(&self, name: &str) -> Vec<&MaterialEntry> {
-        let alias = name.trim().to_lowercase().replace([' ', '_'], "-");
+        let alias = alias_form(name);
         let mut found: Vec<&MaterialEntry> = Vec::new();
         for entry in self.iter() {
             if !entry.material.aliases.contains(&alias) {

@@ -5,6 +5,7 @@ mod cavity;
 mod damage;
 mod equation_of_state;
 mod failure;
+mod flow_curve;
 mod group;
 mod library;
 mod plastic_return;

@@ -62,7 +62,7 @@ const UNMODELLED: &[(&[&str], &str)] = &[
 
 /// Why a name has no record, where that is known: the material cannot be modelled, or no law of it could be read.
 pub fn reason_not_modelled(name: &str) -> Option<&'static str> {
-    let name = name.trim().to_lowercase().replace([' ', '_'], "-");
+    let name = super::library::alias_form(name);
     let holds = |word: &str| {
         let is_part = name.split('-').any(|part| part == word);
         is_part || (word.contains('-') && name.starts_with(word))
