@@ -226,7 +226,7 @@ pub mod limits {
     /// Temperature [K].
     pub const TEMPERATURE: Limits = limits(1.0, 6000.0);
     /// Ratio of yield stress to Young's modulus; a stronger solid than E/10 does not exist.
-    pub const YIELD_TO_MODULUS: Limits = limits(7e-5, 0.1);
+    pub const YIELD_TO_MODULUS: Limits = limits(5e-5, 0.1);
     /// Speed of a wave in a thin bar [m/s].
     pub const BAR_WAVE_SPEED: Limits = limits(250.0, 20_000.0);
     /// Factor on the flow stress of a target.

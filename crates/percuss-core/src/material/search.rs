@@ -76,7 +76,7 @@ impl Library {
     /// that end with a space; empty where nothing is near.
     pub fn suggestion(&self, name: &str) -> String {
         if let Some(reason) = reason_not_modelled(name) {
-            return format!("{reason}; a record of your own goes under `[materials.NAME]`. ");
+            return format!("{reason}. ");
         }
         let fitting = families(&self.with_alias(name));
         if fitting.len() > 1 {
@@ -243,7 +243,7 @@ mod tests {
     #[test]
     fn what_cannot_be_modelled_says_why() {
         let said = Library::built_in().suggestion("Dyneema");
-        for part in ["isotropic", "percuss v50", "[materials.NAME]"] {
+        for part in ["isotropic", "percuss limit --shots"] {
             assert!(said.contains(part), "{said}");
         }
     }
