@@ -1,34 +1,53 @@
 //! Flow curves: stress against plastic strain at one strain rate and temperature.
 
-use super::{FlowState, Material};
+use super::{FlowState, Material, PreparedStrength};
 
 /// Points of a curve.
 const POINTS: u32 = 100;
 
+/// Flow curve of a material at a plastic strain rate and a temperature that stay, without pressure.
+#[derive(Debug)]
+pub struct IsothermalFlowCurve {
+    strength: Box<dyn PreparedStrength>,
+    /// Plastic strain rate [1/s].
+    strain_rate: f64,
+    /// Temperature [K].
+    temperature: f64,
+}
+
 impl Material {
-    /// Plastic strain and flow stress [Pa] up to a plastic strain, at a plastic strain rate [1/s] and a temperature [K] that stay, without
-    /// pressure; `None` for a law that never flows.
-    pub fn flow_curve(
-        &self,
-        largest_strain: f64,
-        strain_rate: f64,
-        temperature: f64,
-    ) -> Option<Vec<(f64, f64)>> {
+    /// The flow curve at a plastic strain rate [1/s] and a temperature [K]; `None` for a law that never flows.
+    pub fn flow_curve(&self, strain_rate: f64, temperature: f64) -> Option<IsothermalFlowCurve> {
         self.strength.law().initial_yield_stress(self)?;
-        let prepared = self.strength.law().prepare(self, 1.0);
+        Some(IsothermalFlowCurve {
+            strength: self.strength.law().prepare(self, 1.0),
+            strain_rate,
+            temperature,
+        })
+    }
+}
+
+impl IsothermalFlowCurve {
+    /// Flow stress [Pa] at a plastic strain.
+    pub fn stress(&self, plastic_strain: f64) -> f64 {
+        let state = FlowState {
+            plastic_strain,
+            strain_rate: self.strain_rate,
+            temperature: self.temperature,
+            pressure: 0.0,
+        };
+        self.strength.flow_stress(&state).stress
+    }
+
+    /// Plastic strains up to the largest one and their flow stresses [Pa].
+    pub fn points(&self, largest_strain: f64) -> Vec<(f64, f64)> {
         let point = |i: u32| {
             // Closer where the curve bends.
             let part = f64::from(i) / f64::from(POINTS);
             let plastic_strain = largest_strain * part * part;
-            let state = FlowState {
-                plastic_strain,
-                strain_rate,
-                temperature,
-                pressure: 0.0,
-            };
-            (plastic_strain, prepared.flow_stress(&state).stress)
+            (plastic_strain, self.stress(plastic_strain))
         };
-        Some((0..=POINTS).map(point).collect())
+        (0..=POINTS).map(point).collect()
     }
 }
 
@@ -42,7 +61,7 @@ mod tests {
         let copper = &Library::built_in().find("ofhc-copper").unwrap().material;
         let half = f64::midpoint(294.0, 1356.0);
         let end = |rate, temperature| {
-            let curve = copper.flow_curve(0.3, rate, temperature).unwrap();
+            let curve = copper.flow_curve(rate, temperature).unwrap().points(0.3);
             assert_eq!((curve.len(), curve[0].0), (101, 0.0));
             curve[100]
         };

@@ -32,6 +32,7 @@ pub use cavity::{cavity_expansion_pressure, cylindrical_cavity_pressure};
 pub use damage::{Damage, DamageState, PreparedDamage};
 pub use equation_of_state::EquationOfState;
 pub use failure::*;
+pub use flow_curve::IsothermalFlowCurve;
 pub use group::MaterialGroup;
 pub use library::{Library, MaterialEntry};
 pub use plastic_return::plastic_increments;

@@ -22,7 +22,8 @@ strain rates and at one constant temperature, without pressure. A run heats the
 material as it deforms; a flow curve does not.
 
 With --out DIR the curves are written as flow-curves.json, and drawn as SVG and
-PNG.";
+PNG: one colour a material, one kind of line a strain rate. Six colours and four
+kinds of lines differ.";
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -34,7 +35,9 @@ Exit codes: 0 ok, 2 bad input or no such material, 4 a file could not be read or
 written";
 
 /// Plastic strains of the table.
-const STRAINS: [f64; 4] = [0.0, 0.02, 0.1, 0.5];
+const STRAINS: [f64; 4] = [0.0, 0.02, 0.1, LARGEST_STRAIN];
+/// Plastic strain at which curves end.
+const LARGEST_STRAIN: f64 = 0.5;
 /// Least and largest strain rate [1/s].
 const RATES: [f64; 2] = [1e-8, 1e9];
 /// Least and largest temperature [K].
@@ -74,72 +77,79 @@ struct Curve {
     flow_stress_mpa: Vec<f64>,
 }
 
+/// A material at a strain rate: plastic strains and stresses [Pa].
+struct Computed<'a> {
+    entry: &'a MaterialEntry,
+    /// Numbers of the material and of the rate.
+    place: [usize; 2],
+    rate: StrainRate,
+    temperature: f64,
+    curve: Vec<(f64, f64)>,
+    /// Stresses at `STRAINS`.
+    stresses: [f64; STRAINS.len()],
+}
+
 impl Compare {
     pub fn run(&self, library: &Library, json: bool) -> Result<(), Failure> {
-        let (curves, files) = self.compute(library)?;
+        let computed = self.compute(library)?;
+        let (curves, files) = self.write(&computed)?;
         if json {
             return output::print_json(&curves);
         }
-        FileList::new(&files).print_under(self.table(library)?)
+        FileList::new(&files).print_under(table(&computed))
     }
 
     /// Output of --json.
     pub fn execute(&self, library: &Library) -> Result<Response, Failure> {
-        let (curves, files) = self.compute(library)?;
+        let (curves, files) = self.write(&self.compute(library)?)?;
         Response::json_of(&curves, files)
     }
 
-    fn entries<'a>(&self, library: &'a Library) -> Result<Vec<&'a MaterialEntry>, Failure> {
-        let names = self.names.iter();
-        names.map(|name| show::find(library, name)).collect()
+    fn compute<'a>(&self, library: &'a Library) -> Result<Vec<Computed<'a>>, Failure> {
+        let mut computed = Vec::new();
+        for (material, name) in self.names.iter().enumerate() {
+            let entry = show::find(library, name)?;
+            for (index, rate) in self.rate.iter().enumerate() {
+                computed.push(self.curve(entry, *rate, [material, index])?);
+            }
+        }
+        Ok(computed)
     }
 
-    fn temperature_of(&self, entry: &MaterialEntry) -> f64 {
-        let own = entry.material.room_temperature;
-        self.temperature.unwrap_or(own).si()
-    }
-
-    /// Strains and stresses [Pa] of a material.
-    fn points(
+    fn curve<'a>(
         &self,
-        entry: &MaterialEntry,
+        entry: &'a MaterialEntry,
         rate: StrainRate,
-        largest: f64,
-    ) -> Result<Vec<(f64, f64)>, Failure> {
-        let temperature = self.temperature_of(entry);
-        let curve = entry.material.flow_curve(largest, rate.si(), temperature);
-        curve.ok_or_else(|| Failure::Material {
-            message: format!("`{}` has no flow curve", entry.id),
-            help: format!(
-                "its strength law `{}` never flows",
-                entry.material.strength.key()
-            ),
+        place: [usize; 2],
+    ) -> Result<Computed<'a>, Failure> {
+        let own = entry.material.room_temperature;
+        let temperature = self.temperature.unwrap_or(own).si();
+        let curve = entry.material.flow_curve(rate.si(), temperature);
+        let Some(curve) = curve else {
+            return Err(Failure::Material {
+                message: format!("`{}` has no flow curve", entry.id),
+                help: format!(
+                    "its strength law `{}` never flows",
+                    entry.material.strength.key()
+                ),
+            });
+        };
+        Ok(Computed {
+            entry,
+            place,
+            rate,
+            temperature,
+            stresses: STRAINS.map(|strain| curve.stress(strain)),
+            curve: curve.points(LARGEST_STRAIN),
         })
     }
 
-    fn compute(&self, library: &Library) -> Result<(Vec<Curve>, Vec<PathBuf>), Failure> {
-        let entries = self.entries(library)?;
+    fn write(&self, computed: &[Computed<'_>]) -> Result<(Vec<Curve>, Vec<PathBuf>), Failure> {
+        let curves: Vec<Curve> = computed.iter().map(Computed::record).collect();
         let mut folder = RunFolder::wanted(self.out.as_deref(), None)?;
-        let (mut curves, mut shown) = (Vec::new(), Vec::new());
-        for (index, entry) in entries.iter().enumerate() {
-            for rate in &self.rate {
-                let points = self.points(entry, *rate, STRAINS[STRAINS.len() - 1])?;
-                curves.push(Curve {
-                    material: entry.id.clone(),
-                    strain_rate_per_s: rate.si(),
-                    temperature_k: self.temperature_of(entry),
-                    plastic_strain: points.iter().map(|point| point.0).collect(),
-                    flow_stress_mpa: points.iter().map(|point| point.1 * 1e-6).collect(),
-                });
-                shown.push(FlowCurve {
-                    name: format!("{}, {rate}", entry.id),
-                    material: index,
-                    points,
-                });
-            }
-        }
         if let Some(folder) = &mut folder {
             folder.put("flow-curves.json", output::json(&curves)?.as_bytes())?;
+            let shown: Vec<FlowCurve> = computed.iter().map(Computed::shown).collect();
             let figure = flow_figure(&shown, &self.caption());
             folder.add(figure.write(folder.path())?);
         }
@@ -152,30 +162,43 @@ impl Compare {
             None => "isothermal at the room temperature of each record, no pressure".to_owned(),
         }
     }
+}
 
-    /// Flow stresses at a few strains, one row a curve.
-    fn table(&self, library: &Library) -> Result<String, Failure> {
-        let mut rows: Vec<[String; 6]> = Vec::new();
-        for entry in self.entries(library)? {
-            for rate in &self.rate {
-                let mut row = [entry.id.clone(), rate.to_string()].to_vec();
-                for strain in STRAINS {
-                    let points = self.points(entry, *rate, strain)?;
-                    let stress = points.last().map_or(f64::NAN, |point| point.1);
-                    row.push(significant(stress * 1e-6, 4).to_string());
-                }
-                rows.extend(<[String; 6]>::try_from(row));
-            }
+impl Computed<'_> {
+    fn record(&self) -> Curve {
+        Curve {
+            material: self.entry.id.clone(),
+            strain_rate_per_s: self.rate.si(),
+            temperature_k: self.temperature,
+            plastic_strain: self.curve.iter().map(|point| point.0).collect(),
+            flow_stress_mpa: self.curve.iter().map(|point| point.1 * 1e-6).collect(),
         }
-        let mut table = Table::of(&rows)
-            .words("flow stress [MPa] of", |row| row[0].clone())
-            .words("strain rate", |row| row[1].clone());
-        for (index, strain) in STRAINS.iter().enumerate() {
-            let name = format!("at strain {strain}");
-            table = table.numbers(&name, "", move |row| row[index + 2].clone());
-        }
-        Ok(plain(&table.table(), 1))
     }
+
+    fn shown(&self) -> FlowCurve {
+        let [material, rate] = self.place;
+        FlowCurve {
+            // The rate first: a legend shortens long names.
+            name: format!("{}, {}", self.rate, self.entry.id),
+            material,
+            rate,
+            points: self.curve.clone(),
+        }
+    }
+}
+
+/// Flow stresses at a few strains, one row a curve.
+fn table(computed: &[Computed<'_>]) -> String {
+    let mut table = Table::of(computed)
+        .words("flow stress [MPa] of", |row| row.entry.id.clone())
+        .words("strain rate", |row| row.rate.to_string());
+    for (index, strain) in STRAINS.iter().enumerate() {
+        let name = format!("at strain {strain}");
+        table = table.numbers(&name, "", move |row| {
+            significant(row.stresses[index] * 1e-6, 4).to_string()
+        });
+    }
+    plain(&table.table(), 1)
 }
 
 fn rate(text: &str) -> Result<StrainRate, String> {

@@ -68,7 +68,7 @@ pub(super) fn find<'a>(library: &'a Library, name: &str) -> Result<&'a MaterialE
     library.find(name).ok_or_else(|| {
         let near = library.suggestion(name);
         Failure::Material {
-            message: format!("no material is named `{name}`"),
+            message: library.unknown(name),
             help: format!("{near}`percuss materials` lists all"),
         }
     })
