@@ -115,7 +115,7 @@ impl MaterialCard {
                 continue;
             }
             entries.sort_by_key(|entry| (family(entry), &entry.id));
-            let heading = group.map_or("other materials", MaterialGroup::describe);
+            let heading = group.map_or("Other materials", MaterialGroup::describe);
             page.push(Block::Heading(heading.to_owned()));
             let link = |entry: &MaterialEntry| (address(&entry.id), in_one_line(entry));
             page.push(Block::Links(entries.into_iter().map(link).collect()));

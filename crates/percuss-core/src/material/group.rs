@@ -86,25 +86,25 @@ impl MaterialGroup {
         }
     }
 
-    /// The group in words.
+    /// The group in words, as a heading.
     pub fn describe(self) -> &'static str {
         match self {
-            Self::Steel => "iron and steel",
-            Self::Aluminium => "aluminium alloys",
-            Self::Copper => "copper and brass",
-            Self::Titanium => "titanium alloys",
-            Self::Magnesium => "magnesium alloys",
-            Self::Nickel => "nickel alloys",
-            Self::Tungsten => "tungsten and heavy alloys",
-            Self::RefractoryMetal => "refractory metals",
-            Self::Actinide => "uranium and thorium",
-            Self::PreciousMetal => "precious metals",
-            Self::OtherMetal => "other metals",
-            Self::HardMetal => "cemented carbides",
-            Self::Ceramic => "ceramics",
-            Self::Glass => "glass",
-            Self::Polymer => "polymers",
-            Self::Concrete => "concrete and stone",
+            Self::Steel => "Iron and steel",
+            Self::Aluminium => "Aluminium alloys",
+            Self::Copper => "Copper and brass",
+            Self::Titanium => "Titanium alloys",
+            Self::Magnesium => "Magnesium alloys",
+            Self::Nickel => "Nickel alloys",
+            Self::Tungsten => "Tungsten and heavy alloys",
+            Self::RefractoryMetal => "Refractory metals",
+            Self::Actinide => "Uranium and thorium",
+            Self::PreciousMetal => "Precious metals",
+            Self::OtherMetal => "Other metals",
+            Self::HardMetal => "Cemented carbides",
+            Self::Ceramic => "Ceramics",
+            Self::Glass => "Glass",
+            Self::Polymer => "Polymers",
+            Self::Concrete => "Concrete and stone",
         }
     }
 
