@@ -1,6 +1,6 @@
 //! Quasi-static expansion of a spherical or cylindrical cavity: the pressure that a metal opposes to slow penetration.
 
-use std::cell::RefCell;
+use std::{cell::RefCell, collections::VecDeque};
 
 use super::{FlowState, Material};
 
@@ -29,21 +29,32 @@ pub fn cylindrical_cavity_pressure(material: &Material) -> Option<f64> {
     remembered_pressure(material, 3.0_f64.sqrt())
 }
 
+/// An integral: material, exponent and value.
+type Known = (Material, f64, Option<f64>);
+
+/// Integrals that are remembered: those of the materials of published tests.
+const MOST_KNOWN: usize = 64;
+
 thread_local! {
-    /// The last integral: material, exponent and value.
-    static LAST: RefCell<Option<(Material, f64, Option<f64>)>> = const { RefCell::new(None) };
+    /// The last integrals, the latest first.
+    static KNOWN: RefCell<VecDeque<Known>> = const { RefCell::new(VecDeque::new()) };
 }
 
-/// [`expansion_pressure`], and the last one again where nothing has changed: runs of a sweep mostly have the same target, and the
-/// integral takes as long as a third of a run.
+/// [`expansion_pressure`], remembered: runs of a sweep mostly have the same target, published tests have a few dozen, and the integral takes
+/// as long as a third of a run.
 fn remembered_pressure(material: &Material, exponent: f64) -> Option<f64> {
-    LAST.with_borrow_mut(|last| match last {
-        Some((known, of, pressure)) if known == material && *of == exponent => *pressure,
-        _ => {
+    KNOWN.with_borrow_mut(|known| {
+        let is_it = |(of, power, _): &Known| *power == exponent && of == material;
+        let place = known.iter().position(is_it);
+        let entry = place.and_then(|place| known.remove(place));
+        let entry = entry.unwrap_or_else(|| {
             let pressure = expansion_pressure(material, exponent);
-            *last = Some((material.clone(), exponent, pressure));
-            pressure
-        }
+            (material.clone(), exponent, pressure)
+        });
+        let pressure = entry.2;
+        known.push_front(entry);
+        known.truncate(MOST_KNOWN);
+        pressure
     })
 }
 

@@ -10,11 +10,15 @@ use crate::{
     options::ChainOptions,
 };
 
-/// Section of the transverse shear stiffness that a rectangular section has \[mindlin1951\].
+/// Part of the transverse shear stiffness that a rectangular section has \[mindlin1951\].
 const SHEAR_CORRECTION: f64 = 5.0 / 6.0;
-/// Section of the moment to which the yield surface is met.
+/// Part of the moment to which the yield surface is met.
 const TOLERANCE: f64 = 1e-10;
-/// Steps of a secant that is kept in its bracket; far more than it needs.
+/// The same, from which a step of Newton's method meets it: its error falls with the square.
+const LAST_EXCESS: f64 = 1e-6;
+/// Multiplier from which the first flow is sought.
+const FIRST_MULTIPLIER: f64 = 1e-3;
+/// Steps of Newton's method that is kept in its bracket; far more than it needs.
 const MOST_ITERATIONS: u32 = 100;
 
 /// What is the same for all rings of a plate.
@@ -27,6 +31,8 @@ pub(super) struct PlateSection {
     bending: f64,
     /// Transverse shear stiffness [N/m].
     shear: f64,
+    /// How fast normal flow reduces the sum and the difference of the moments and the shear force.
+    decay: [f64; 3],
     strength: Box<dyn PreparedStrength>,
     /// Temperature rise per plastic work per volume [K m3/J].
     heating: f64,
@@ -43,12 +49,19 @@ impl PlateSection {
         options: &ChainOptions,
     ) -> Self {
         let nu = material.poissons_ratio;
+        let bending = material.youngs_modulus.si() * thickness.powi(3) / (12.0 * (1.0 - nu * nu));
+        let shear = SHEAR_CORRECTION * material.shear_modulus() * thickness;
         Self {
             thickness,
             poissons_ratio: nu,
             density: material.density.si(),
-            bending: material.youngs_modulus.si() * thickness.powi(3) / (12.0 * (1.0 - nu * nu)),
-            shear: SHEAR_CORRECTION * material.shear_modulus() * thickness,
+            bending,
+            shear,
+            decay: [
+                1.0 + nu,
+                3.0 * (1.0 - nu),
+                0.375 * shear * thickness * thickness / bending,
+            ],
             strength: material.strength.law().prepare(material, 1.0),
             heating: super::part::heating(material, options, 1.0),
             rate_effects: options.rate_effects(),
@@ -81,19 +94,42 @@ impl PlateSection {
     }
 
     /// Moment that uses up as much of a section as moments and shear force do together: `√(M_r² − M_r M_θ + M_θ² + 3 (Q h/4)²)`.
-    fn equivalent(&self, [sum, difference, shear]: [f64; 3]) -> f64 {
+    fn equivalent(&self, loads: [f64; 3]) -> f64 {
+        self.equivalent_squared(loads).sqrt()
+    }
+
+    #[inline]
+    fn equivalent_squared(&self, [sum, difference, shear]: [f64; 3]) -> f64 {
         let of_shear = 0.5 * self.thickness * shear;
-        0.5 * (sum * sum + 3.0 * (difference * difference + of_shear * of_shear)).sqrt()
+        0.25 * (sum * sum + 3.0 * (difference * difference + of_shear * of_shear))
     }
 
     /// Trial moments and shear force after normal flow with a multiplier.
-    fn returned(&self, [sum, difference, shear]: [f64; 3], multiplier: f64) -> [f64; 3] {
+    fn returned(&self, trial: [f64; 3], multiplier: f64) -> [f64; 3] {
+        let decay = self.decay;
+        std::array::from_fn(|i| trial[i] / (1.0 + multiplier * decay[i]))
+    }
+
+    /// Slope of the equivalent moment with the multiplier, after the return with it.
+    fn slope_of_equivalent(&self, returned: [f64; 3], multiplier: f64, moment: f64) -> f64 {
+        let decay = self.decay;
+        let of = |i: usize| -returned[i] * returned[i] * decay[i] / (1.0 + multiplier * decay[i]);
+        let of_shear = 0.25 * self.thickness * self.thickness * of(2);
+        0.25 * (of(0) + 3.0 * (of(1) + of_shear)) / moment
+    }
+
+    /// Mean plastic strain of normal flow: work per area is σ h Δε with σ = 4M/h², so that a curvature Δκ has the strain h Δκ/4.
+    fn strain(&self, multiplier: f64, moment: f64) -> f64 {
+        0.5 * self.thickness * multiplier * moment / self.bending
+    }
+
+    /// Stiffness of the sum and the difference of the moments and of the shear force.
+    fn stiffness(&self) -> [f64; 3] {
         let nu = self.poissons_ratio;
-        let shear_ratio = 0.375 * self.shear * self.thickness * self.thickness / self.bending;
         [
-            sum / (1.0 + multiplier * (1.0 + nu)),
-            difference / (1.0 + 3.0 * multiplier * (1.0 - nu)),
-            shear / (1.0 + multiplier * shear_ratio),
+            self.bending * (1.0 + nu),
+            self.bending * (1.0 - nu),
+            self.shear,
         ]
     }
 }
@@ -114,10 +150,15 @@ pub(super) struct Ring {
     /// Plastic curvatures, sum and difference, and slope, and those of the last step.
     plastic: [f64; 3],
     plastic_step: [f64; 3],
-    /// Mean equivalent plastic strain of the section.
-    plastic_strain: f64,
+    /// Mean equivalent plastic strain of the section and its temperature, at rest.
+    state: FlowState,
     damage: f64,
-    temperature: f64,
+    /// Flow stress in that state, where it is known [Pa].
+    slow: Option<f64>,
+    /// Stress at which it flowed last [Pa].
+    reached: f64,
+    /// Multiplier of the last flow.
+    last_multiplier: f64,
 }
 
 impl Ring {
@@ -133,15 +174,24 @@ impl Ring {
             shear_before: 0.0,
             plastic: [0.0; 3],
             plastic_step: [0.0; 3],
-            plastic_strain: 0.0,
+            state: FlowState {
+                plastic_strain: 0.0,
+                strain_rate: 0.0,
+                temperature: section.start_temperature,
+                pressure: 0.0,
+            },
             damage: 0.0,
-            temperature: section.start_temperature,
+            slow: None,
+            reached: f64::INFINITY,
+            last_multiplier: FIRST_MULTIPLIER,
         }
     }
 
     /// Whether it has failed.
     pub(super) fn has_failed(&self, section: &PlateSection) -> bool {
-        section.failure.is_reached(self.plastic_strain, self.damage)
+        section
+            .failure
+            .is_reached(self.state.plastic_strain, self.damage)
     }
 
     /// Area of the ring in the plane of the plate [m2].
@@ -150,6 +200,7 @@ impl Ring {
     }
 
     /// Force on its inner circle, the opposite of that on its outer one, and the moments on both.
+    #[inline]
     pub(super) fn loads(&self) -> (f64, [f64; 2]) {
         let radial = 0.5 * (self.sum + self.difference);
         let hoop = 0.5 * (self.sum - self.difference);
@@ -165,6 +216,7 @@ impl Ring {
     }
 
     /// Whether an update without motion would change nothing.
+    #[inline]
     pub(super) fn is_settled(&self) -> bool {
         self.plastic_step == [0.0; 3]
             && self.sum == self.sum_before
@@ -174,6 +226,7 @@ impl Ring {
 
     /// Brings the ring to new deflections and rotations of its circles and returns the plastic work between the half steps around
     /// the current time [J].
+    #[inline]
     pub(super) fn deform(
         &mut self,
         section: &PlateSection,
@@ -195,89 +248,110 @@ impl Ring {
         self.difference = stiffness * (1.0 - nu) * (radial - hoop - self.plastic[1]);
         let before = self.plastic_step;
         self.plastic_step = [0.0; 3];
-        self.flow(section, time_step);
+        if !self.is_elastic(section) {
+            self.flow(section, time_step);
+        }
         let steps: [f64; 3] = std::array::from_fn(|i| before[i] + self.plastic_step[i]);
         // M_r κ_r + M_θ κ_θ is half of what sums and differences give; half of the two steps belongs to this time.
         let bending = self.sum_before * steps[0] + self.difference_before * steps[1];
         (0.25 * bending + 0.5 * self.shear_before * steps[2]) * self.area()
     }
 
+    /// Whether the trial moments and shear force are inside the yield surface.
+    #[inline]
+    fn is_elastic(&mut self, section: &PlateSection) -> bool {
+        let square = section.equivalent_squared([self.sum, self.difference, self.shear]);
+        let within = |stress: f64| square <= (section.modulus() * stress).powi(2);
+        // What was reached with a strain rate is flow at any rate.
+        within(self.reached)
+            && within(
+                *self
+                    .slow
+                    .get_or_insert_with(|| section.strength.flow_stress(&self.state).stress),
+            )
+    }
+
     /// Returns trial moments and shear force to the yield surface.
+    #[inline(never)]
     fn flow(&mut self, section: &PlateSection, time_step: f64) {
         let trial = [self.sum, self.difference, self.shear];
-        let moment = |multiplier: f64| section.equivalent(section.returned(trial, multiplier));
-        // Work per area is σ h Δε with σ = 4M/h²: a curvature Δκ has the mean strain h Δκ/4, a slope Δγ has Δγ/√3.
-        let strain = |multiplier: f64| {
-            0.5 * section.thickness * multiplier * moment(multiplier) / section.bending
-        };
-        let state = |increment: f64| FlowState {
-            plastic_strain: self.plastic_strain + increment,
-            strain_rate: match section.rate_effects {
-                true => increment / time_step,
-                false => 0.0,
-            },
-            temperature: self.temperature,
-            pressure: 0.0,
-        };
-        let excess = |multiplier: f64| {
-            let flow = section.strength.flow_stress(&state(strain(multiplier)));
-            moment(multiplier) - section.modulus() * flow.stress
-        };
-        let scale = moment(0.0);
-        let slow = excess(0.0);
-        if slow <= 0.0 {
-            return;
-        }
-        let (mut low, mut over) = (0.0, slow);
-        let mut high = 2.0 * slow / (scale * (1.0 - section.poissons_ratio));
-        let mut under = excess(high);
-        while under > 0.0 {
-            (low, over) = (high, under);
-            high *= 2.0;
-            under = excess(high);
-        }
-        let mut multiplier = high;
-        let mut kept = 0;
-        for _ in 0..MOST_ITERATIONS {
-            multiplier = (low * under - high * over) / (under - over);
-            let value = excess(multiplier);
-            if value.abs() <= TOLERANCE * scale {
-                break;
-            }
-            if value > 0.0 {
-                (low, over) = (multiplier, value);
-                if kept == 1 {
-                    under *= 0.5;
-                }
-                kept = 1;
-            } else {
-                (high, under) = (multiplier, value);
-                if kept == -1 {
-                    over *= 0.5;
-                }
-                kept = -1;
-            }
-        }
-        let increment = strain(multiplier);
-        let temperature = self.temperature;
+        let multiplier = self.multiplier(section, trial, time_step);
+        self.last_multiplier = multiplier;
+        let returned = section.returned(trial, multiplier);
+        let increment = section.strain(multiplier, section.equivalent(returned));
+        let temperature = self.state.temperature;
         self.damage = section
             .failure
             .grow(self.damage, increment, time_step, temperature);
-        let returned = section.returned(trial, multiplier);
         [self.sum, self.difference, self.shear] = returned;
-        let nu = section.poissons_ratio;
-        let stiffness = [
-            section.bending * (1.0 + nu),
-            section.bending * (1.0 - nu),
-            section.shear,
-        ];
+        let stiffness = section.stiffness();
         self.plastic_step = std::array::from_fn(|i| (trial[i] - returned[i]) / stiffness[i]);
         for (plastic, step) in self.plastic.iter_mut().zip(self.plastic_step) {
             *plastic += step;
         }
-        self.plastic_strain += increment;
-        let stress = section.equivalent(returned) / section.modulus();
-        self.temperature += section.heating * stress * increment;
+        self.state.plastic_strain += increment;
+        self.reached = section.equivalent(returned) / section.modulus();
+        self.state.temperature += section.heating * self.reached * increment;
+        self.slow = None;
+    }
+
+    /// Multiplier of normal flow at which the moment meets the flow stress: Newton's method from the last one, kept in a bracket.
+    fn multiplier(&self, section: &PlateSection, trial: [f64; 3], time_step: f64) -> f64 {
+        let scale = section.equivalent(trial);
+        let (mut low, mut high) = (0.0_f64, f64::INFINITY);
+        let mut multiplier = self.last_multiplier;
+        for _ in 0..MOST_ITERATIONS {
+            let (value, slope) = self.excess(section, trial, multiplier, time_step);
+            if value.abs() <= TOLERANCE * scale {
+                break;
+            }
+            if value > 0.0 {
+                low = multiplier;
+            } else {
+                high = multiplier;
+            }
+            let next = multiplier - value / slope;
+            if value.abs() <= LAST_EXCESS * scale && next > low && next < high {
+                return next;
+            }
+            multiplier = if next > low && next < high {
+                next
+            } else if high.is_finite() {
+                0.5 * (low + high)
+            } else {
+                2.0 * multiplier
+            };
+        }
+        multiplier
+    }
+
+    /// Moment beyond the yield surface after normal flow with a multiplier, and its slope.
+    fn excess(
+        &self,
+        section: &PlateSection,
+        trial: [f64; 3],
+        multiplier: f64,
+        time_step: f64,
+    ) -> (f64, f64) {
+        let returned = section.returned(trial, multiplier);
+        let moment = section.equivalent(returned);
+        let moment_slope = section.slope_of_equivalent(returned, multiplier, moment);
+        let increment = section.strain(multiplier, moment);
+        let per_time = match section.rate_effects {
+            true => 1.0 / time_step,
+            false => 0.0,
+        };
+        let flow = section.strength.flow_stress(&FlowState {
+            plastic_strain: self.state.plastic_strain + increment,
+            strain_rate: increment * per_time,
+            ..self.state
+        });
+        let strain_slope = section.strain(1.0, moment + multiplier * moment_slope);
+        let hardening = (flow.strain_slope + flow.rate_slope * per_time) * strain_slope;
+        (
+            moment - section.modulus() * flow.stress,
+            moment_slope - section.modulus() * hardening,
+        )
     }
 
     /// Elastic energy between two steps [J]: the form that central differences conserve.

@@ -29,7 +29,7 @@ pub use power_law::{Hardening, PowerLaw};
 pub use steinberg_guinan::{SteinbergGuinan, SteinbergGuinanLaw};
 
 /// State that a flow stress depends on.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FlowState {
     /// Equivalent plastic strain.
     pub plastic_strain: f64,
