@@ -114,6 +114,9 @@ pub(super) fn dynamic_yield(
     }
     for _ in 0..BISECTIONS {
         let middle = (low * high).sqrt();
+        if middle <= low || middle >= high {
+            break;
+        }
         if excess(middle) > 0.0 {
             low = middle;
         } else {

@@ -7,6 +7,7 @@ mod deep_penetration;
 mod dynamic_yield;
 mod forrestal;
 mod forrestal_concrete;
+mod gauss;
 mod hydrodynamic;
 mod lambert_jonas;
 mod lanz_odermatt;

@@ -5,18 +5,10 @@
 //! `F = ½ μ [V (V² + a)/(S + μV) + a ln(V + S)]`, which holds at equal densities as well. Derived here; the works that give such a
 //! solution \[walters1991, segletes2003\] could not be read beyond a first page.
 
-use super::equations::Rods;
+use super::{super::gauss::integral, equations::Rods};
 
 /// Panels of the integral over the speed.
 const PANELS: u32 = 400;
-/// Points and weights of Gauss and Legendre on −1 to 1, of order 10.
-const GAUSS: [(f64, f64); 5] = [
-    (0.0, 128.0 / 225.0),
-    (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-    (0.906_179_845_938_664, 0.236_926_885_056_189_08),
-    (-0.906_179_845_938_664, 0.236_926_885_056_189_08),
-];
 
 impl Rods {
     /// Part of the length that is left when the tail has slowed from one speed to another [m/s] while the rod erodes.
@@ -46,15 +38,8 @@ impl Rods {
     /// Depth that the rod makes while its tail slows from one speed to another [m/s], over its length at the first of them:
     /// `(ρ_p/Y) ∫ U L/L₀ dV`.
     pub fn eroding_depth(&self, from: f64, to: f64) -> f64 {
-        let width = (from - to) / f64::from(PANELS);
-        let sum: f64 = (0..PANELS)
-            .flat_map(|panel| GAUSS.map(|gauss| (panel, gauss)))
-            .map(|(panel, (point, weight))| {
-                let speed = to + width * (f64::from(panel) + 0.5 + 0.5 * point);
-                weight * self.penetration_speed(speed) * self.length_left(from, speed)
-            })
-            .sum();
-        self.projectile_density / self.projectile_strength * 0.5 * width * sum
+        let rate = |speed: f64| self.penetration_speed(speed) * self.length_left(from, speed);
+        self.projectile_density / self.projectile_strength * integral(to, from, PANELS, rate)
     }
 }
 
