@@ -1,6 +1,6 @@
 //! Expected error of a ballistic limit: the errors of its model on published limits of the same kind.
 
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
 use serde::Serialize;
 
@@ -97,27 +97,37 @@ impl Plate {
 /// Error of a model on a published limit.
 #[derive(Debug, Clone)]
 struct LimitError {
-    model: &'static str,
     source: String,
     is_blind: bool,
     plate: Plate,
     error: f64,
 }
 
-/// Errors of every fast model that predicts limits, on every published limit that counts.
-static ERRORS: LazyLock<Vec<LimitError>> = LazyLock::new(|| {
-    let mut models = fast_models();
-    models.retain(|model| {
-        let predicts = model.validity().predicts;
-        predicts.contains(&BandQuantity::BallisticLimit)
+/// The fast models that predict limits, each with its errors on every published limit that counts, once they are asked for.
+static ERRORS: LazyLock<Vec<(&'static dyn Model, OnceLock<Vec<LimitError>>)>> =
+    LazyLock::new(|| {
+        let models = fast_models().into_iter().filter(|model| {
+            let predicts = model.validity().predicts;
+            predicts.contains(&BandQuantity::BallisticLimit)
+        });
+        models.map(|model| (model, OnceLock::new())).collect()
     });
+
+/// Errors of a fast model on every published limit that counts; none of another model.
+fn errors_of(model: &str) -> &'static [LimitError] {
+    let entry = ERRORS.iter().find(|(of, _)| of.name() == model);
+    entry.map_or(&[], |(model, errors)| {
+        errors.get_or_init(|| published_errors(*model))
+    })
+}
+
+fn published_errors(model: &'static dyn Model) -> Vec<LimitError> {
     let limits = experiments::built_in().iter().enumerate();
     let limits = limits.filter(|(_, test)| test.kind == Kind::BallisticLimit);
-    validate::with_main_records(&models, limits, Library::built_in())
+    validate::with_main_records(&[model], limits, Library::built_in())
         .filter(|(prediction, _)| prediction.standing == Standing::Counted)
         .filter_map(|(prediction, scenario)| {
             Some(LimitError {
-                model: prediction.model,
                 source: experiments::built_in()[prediction.test].source.clone(),
                 is_blind: prediction.split == Split::Blind,
                 plate: Plate::of(&scenario)?,
@@ -125,7 +135,7 @@ static ERRORS: LazyLock<Vec<LimitError>> = LazyLock::new(|| {
             })
         })
         .collect()
-});
+}
 
 /// Expected error of the limit that a model finds for a case; `None` where fewer than five published limits are of its kind.
 /// Limits of a source that the case's own experiments cite are left out.
@@ -143,9 +153,9 @@ pub(super) fn expected_error(
         let mut cited = scenario.experiments.iter().flat_map(|e| &e.sources);
         cited.any(|cited| cited == source)
     };
-    let errors: Vec<&LimitError> = ERRORS
+    let errors: Vec<&LimitError> = errors_of(model.name())
         .iter()
-        .filter(|error| error.model == model.name() && !is_own(&error.source))
+        .filter(|error| !is_own(&error.source))
         .collect();
     expected_among(&errors, &plate)
 }
@@ -196,7 +206,6 @@ mod tests {
 
     fn error(density: f64, target: TargetKind, error: f64) -> LimitError {
         LimitError {
-            model: "made up",
             source: "one".to_owned(),
             is_blind: error > 0.05,
             plate: Plate {
@@ -258,11 +267,7 @@ mod tests {
                 .filter(counted)
                 .filter_map(|p| p.relative_error)
                 .collect();
-            let found: Vec<f64> = ERRORS
-                .iter()
-                .filter(|error| error.model == name)
-                .map(|error| error.error)
-                .collect();
+            let found: Vec<f64> = errors_of(name).iter().map(|error| error.error).collect();
             assert!(found.len() > 30, "{name}: {}", found.len());
             assert_eq!(found, expected, "{name}");
         }
