@@ -218,3 +218,86 @@ fn flow_curves_are_compared() {
         assert!(flat(&said.stderr).contains(part), "{}", said.stderr);
     }
 }
+
+/// Records go to a deck and back, and a case runs with them.
+#[test]
+fn a_deck_is_written_and_read_and_run() {
+    let folder = TempDir::new().unwrap();
+    let here = folder.path();
+    let deck = [
+        "materials",
+        "export",
+        "4340",
+        "ofhc",
+        "--format",
+        "ls-dyna",
+        "--units",
+        "mm-kg-ms",
+        "--out",
+        "metals.k",
+    ];
+    assert!(ok(here, &deck).contains("metals.k"));
+    let import = ["materials", "import", "metals.k", "--units", "mm-kg-ms"];
+    let said = percuss(here, import);
+    assert!(
+        said.stderr.contains("warning:") && said.stderr.contains("D3 = 2.12 is taken as -2.12"),
+        "{}",
+        said.stderr
+    );
+    assert!(
+        said.stdout.contains("[4340-steel-johnson-cook]"),
+        "{}",
+        said.stdout
+    );
+    assert!(said.stdout.contains("a = \"792 MPa\""), "{}", said.stdout);
+    fs::write(here.join("metals.toml"), &said.stdout).unwrap();
+    let case = "material_files = ['metals.toml']\n\
+        projectile = { material = 'ofhc-copper-johnson-cook', length = '12 mm', diameter = '4 mm', impact_velocity = '300 m/s' }\n\
+        target = { material = '4340-steel-johnson-cook', thickness = '25 mm' }\n";
+    fs::write(here.join("own.toml"), case).unwrap();
+    let library = case.lines().skip(1).collect::<Vec<_>>().join("\n");
+    let library = library.replace("4340-steel-johnson-cook", "4340-johnson-cook");
+    fs::write(here.join("library.toml"), library).unwrap();
+    let depth = |name: &str| {
+        let text = ok(here, &["run", name, "--fast", "--json"]);
+        json(&text)["results"][0]["depth_of_penetration_mm"]
+            .as_f64()
+            .unwrap()
+    };
+    let (own, library) = (depth("own.toml"), depth("library.toml"));
+    assert!((own / library - 1.0).abs() < 1e-2, "{own} {library}");
+
+    let wrong = percuss(
+        here,
+        ["materials", "import", "metals.k", "--units", "mm-t-s"],
+    );
+    assert_eq!((wrong.code, wrong.stdout.as_str()), (2, ""));
+    for words in ["metals.k:", "density", "the deck was read in mm-t-s"] {
+        assert!(flat(&wrong.stderr).contains(words), "{}", wrong.stderr);
+    }
+}
+
+/// TOML that is exported is a file of materials; what a deck cannot say is refused.
+#[test]
+fn exported_records_are_read_and_refusals_have_reasons() {
+    let folder = TempDir::new().unwrap();
+    let here = folder.path();
+    let text = ok(here, &["materials", "export", "rha", "copper"]);
+    fs::write(here.join("mine.toml"), text).unwrap();
+    let listed = ok(here, &["materials", "--file", "mine.toml", "--json"]);
+    assert!(listed.contains("mine.toml"), "{listed}");
+    for (arguments, words) in [
+        (
+            vec!["copper", "--format", "ls-dyna", "--units", "m-kg-s"],
+            "`power_law` is no Johnson–Cook law",
+        ),
+        (vec!["rha", "--units", "m-kg-s"], "`--units` has no effect"),
+        (vec!["rha", "--format", "ls-dyna"], "--units <SYSTEM>"),
+        (vec!["no-such-metal"], "no-such-metal"),
+    ] {
+        let arguments = [vec!["materials", "export"], arguments].concat();
+        let said = percuss(here, &arguments);
+        assert_eq!((said.code, said.stdout.as_str()), (2, ""), "{arguments:?}");
+        assert!(flat(&said.stderr).contains(words), "{}", said.stderr);
+    }
+}

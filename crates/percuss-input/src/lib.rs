@@ -4,7 +4,10 @@
 
 pub mod case;
 pub mod inputs;
+pub mod lsdyna;
 
 // What the input uses of the layers below.
-use percuss_core::{check, document, error, history, material, options, problem, scenario, units};
+use percuss_core::{
+    Refusal, check, document, error, history, material, options, problem, scenario, units,
+};
 use percuss_models::chain;

@@ -64,6 +64,12 @@ pub fn load_materials(path: impl AsRef<Path>) -> Result<MaterialTable, Error> {
     read(&Document::read(path)?.of_materials())
 }
 
+/// Records as a file of materials.
+pub fn materials_toml(records: &MaterialTable) -> String {
+    // A material holds nothing that TOML could not.
+    toml::to_string(records).unwrap_or_default()
+}
+
 fn read(document: &Document) -> Result<MaterialTable, Error> {
     let MaterialFile { plain, nested } = document.parse()?;
     let mut diagnostics = Vec::new();

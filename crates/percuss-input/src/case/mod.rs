@@ -16,7 +16,7 @@ mod tests;
 
 pub use file::Case;
 pub use load::{library, load, load_str, scenario};
-pub use material_file::load_materials;
+pub use material_file::{load_materials, materials_toml};
 pub use schema::schema;
 pub use self_contained::self_contained;
 pub use template::Template;

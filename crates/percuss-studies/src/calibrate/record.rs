@@ -4,6 +4,7 @@ use toml::Value;
 
 use super::{Calibration, Fitted, Problem};
 use crate::{
+    case::materials_toml,
     material::{Calibrated, Material, MaterialTable, Trust},
     units::significant,
 };
@@ -25,8 +26,7 @@ impl CalibratedRecord {
     /// `[materials]` of a case does as well.
     pub fn toml(&self) -> String {
         let table = MaterialTable::from([(self.id.clone(), self.material.clone())]);
-        // A material holds nothing that TOML could not.
-        toml::to_string(&table).unwrap_or_default()
+        materials_toml(&table)
     }
 }
 

@@ -1,10 +1,12 @@
 //! `percuss materials`: list of the materials.
 
 mod compare;
+mod export;
+mod import;
 mod list;
 mod show;
 
-use std::path::PathBuf;
+use std::{fs, path::PathBuf};
 
 use clap::{Args, Subcommand, builder::PossibleValuesParser};
 use percuss::{
@@ -29,7 +31,9 @@ With WORDS, only materials with all words in id, family, group, name, aliases or
 state are listed. --group, --family and --hardness narrow the list further.
 
 `percuss materials show NAME` prints all constants of a material, `percuss
-materials compare NAMES` the flow curves of several.";
+materials compare NAMES` the flow curves of several. `percuss materials export
+NAMES` prints records as TOML or as cards of a deck, `percuss materials import
+DECK` reads such cards.";
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -40,6 +44,8 @@ Examples:
   percuss materials show copper
   percuss materials compare rha 4340 --out curves
   percuss materials show my-alloy --case my-case/scenario.toml
+  percuss materials export 4340 > my-steel.toml
+  percuss materials import plate.k --units mm-kg-ms
   percuss materials --json
 
 Exit codes: 0 ok, 2 bad input or no such material, 4 a file could not be read";
@@ -79,6 +85,8 @@ pub struct Materials {
 enum Action {
     Show(show::Show),
     Compare(compare::Compare),
+    Export(export::Export),
+    Import(import::Import),
 }
 
 impl Materials {
@@ -88,6 +96,8 @@ impl Materials {
             None => list::list(&self.listed(&library)?, self.json),
             Some(Action::Show(show)) => show.run(&library, self.json),
             Some(Action::Compare(compare)) => compare.run(&library, self.json),
+            Some(Action::Export(export)) => export.run(&library, self.json),
+            Some(Action::Import(import)) => import.run(self.json),
         }
     }
 
@@ -98,6 +108,8 @@ impl Materials {
             None => Response::json_of(&list::records(&self.listed(&library)?), Vec::new()),
             Some(Action::Show(show)) => show.execute(&library),
             Some(Action::Compare(compare)) => compare.execute(&library),
+            Some(Action::Export(export)) => export.execute(&library),
+            Some(Action::Import(import)) => import.execute(),
         }
     }
 
@@ -147,6 +159,15 @@ impl Materials {
         }
         Ok(library)
     }
+}
+
+/// Writes a text to a file, if there is one; returns it.
+fn write_file(out: Option<&PathBuf>, text: &str) -> Result<Vec<PathBuf>, Failure> {
+    let Some(out) = out else {
+        return Ok(Vec::new());
+    };
+    fs::write(out, text).map_err(Failure::write(out))?;
+    Ok(vec![out.clone()])
 }
 
 /// A range of Brinell hardness.

@@ -1,0 +1,121 @@
+//! `percuss materials export`: records as TOML or as cards of a deck.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum, builder::PossibleValuesParser};
+use percuss::{
+    case::materials_toml,
+    lsdyna::{self, UnitSystem},
+    material::{Library, Material, MaterialEntry, MaterialTable},
+};
+use serde::Serialize;
+
+use super::{show, write_file};
+use crate::{failure::Failure, file_list::FileList, output, response::Response};
+
+const LONG_ABOUT: &str = "\
+Print records of the library as text: as TOML, to start a record of your own
+from and for the `material_files` of a case, or as cards of an LS-DYNA deck,
+*MAT_JOHNSON_COOK with *EOS_GRUNEISEN in a unit system.
+
+A card has fields of ten columns, which round some numbers to four digits. A
+record with another strength law than Johnson-Cook has no card.";
+
+const AFTER_HELP: &str = "\
+Examples:
+  percuss materials export 4340 > my-steel.toml
+  percuss materials export rha 4340 --format ls-dyna --units mm-kg-ms --out steels.k
+
+Exit codes: 0 ok, 2 bad input or no such material, 4 a file could not be read or
+written";
+
+/// Print records as TOML or as cards of an LS-DYNA deck
+#[derive(Debug, Args)]
+#[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
+pub struct Export {
+    /// Ids, families or aliases of the materials
+    #[arg(required = true, value_name = "NAMES")]
+    names: Vec<String>,
+    /// Format of the text
+    #[arg(long, value_enum, default_value_t = Format::Toml)]
+    format: Format,
+    /// Unit system of a deck: length, mass and time
+    #[arg(long, value_name = "SYSTEM", value_parser = PossibleValuesParser::new(UnitSystem::NAMES))]
+    #[arg(required_if_eq("format", "ls-dyna"))]
+    units: Option<String>,
+    /// Write the text to a file
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Records as in the files of the library
+    Toml,
+    /// Cards of a deck
+    LsDyna,
+}
+
+#[derive(Serialize)]
+struct Record<'a> {
+    text: &'a str,
+}
+
+impl Export {
+    pub fn run(&self, library: &Library, json: bool) -> Result<(), Failure> {
+        let text = self.text(library)?;
+        let files = FileList::new(&write_file(self.out.as_ref(), &text)?);
+        match (json, &self.out) {
+            (true, _) => files.print_json(&Record { text: &text }, false),
+            (false, Some(_)) => files.print_under(String::new()),
+            (false, None) => output::print(&text),
+        }
+    }
+
+    /// Output of --json.
+    pub fn execute(&self, library: &Library) -> Result<Response, Failure> {
+        let text = self.text(library)?;
+        let files = write_file(self.out.as_ref(), &text)?;
+        Response::json_of(&Record { text: &text }, files)
+    }
+
+    fn text(&self, library: &Library) -> Result<String, Failure> {
+        let find = |name: &String| show::find(library, name);
+        let entries: Vec<&MaterialEntry> = self.names.iter().map(find).collect::<Result<_, _>>()?;
+        match (self.format, self.units.as_deref()) {
+            (Format::Toml, None) => {
+                let records = entries
+                    .iter()
+                    .map(|entry| (entry.id.clone(), Material::clone(&entry.material)));
+                Ok(materials_toml(&MaterialTable::from_iter(records)))
+            }
+            (Format::Toml, Some(_)) => Err(Failure::Usage {
+                message: "`--units` has no effect with `--format toml`".to_owned(),
+                help: "every number of a TOML record carries its unit: remove `--units`".to_owned(),
+            }),
+            (Format::LsDyna, name) => {
+                // clap asks for a name and lets no other through.
+                let units = name
+                    .and_then(UnitSystem::named)
+                    .unwrap_or(UnitSystem::ALL[0]);
+                deck(&entries, units)
+            }
+        }
+    }
+}
+
+fn deck(entries: &[&MaterialEntry], units: UnitSystem) -> Result<String, Failure> {
+    let mut text = format!(
+        "*KEYWORD\n$ Units: {}, stresses in {}, temperatures in kelvin\n",
+        units.name, units.pressure_unit
+    );
+    for (i, entry) in entries.iter().enumerate() {
+        let cards =
+            lsdyna::write(i + 1, &entry.material, units).map_err(|refusal| Failure::Material {
+                message: format!("`{}` has no card: {}", entry.id, refusal.reason),
+                help: refusal.remedy.unwrap_or_default(),
+            })?;
+        text += &cards;
+    }
+    Ok(text + "*END\n")
+}

@@ -1,0 +1,102 @@
+//! `percuss materials import`: records from the cards of a deck.
+
+use std::path::PathBuf;
+
+use clap::{Args, builder::PossibleValuesParser};
+use percuss::{
+    case::{Document, materials_toml},
+    lsdyna::{self, Imported, UnitSystem},
+    material::{Material, MaterialTable},
+};
+use serde::Serialize;
+
+use super::write_file;
+use crate::{
+    diagnostic, failure::Failure, file_list::FileList, output, response::Response, terminal,
+};
+
+const LONG_ABOUT: &str = "\
+Read the materials of an LS-DYNA deck: *MAT_JOHNSON_COOK (015),
+*MAT_SIMPLIFIED_JOHNSON_COOK (098) and *EOS_GRUNEISEN, joined by *PART or by
+equal numbers. The records are printed as TOML, for the `material_files` of a
+case, or written to a file with --out. What they leave out is a warning.
+
+A deck has no units: --units names its unit system, by length, mass and time.
+Temperatures are in kelvin. A record is refused where no material has its
+values, which is what a wrong unit system leads to.";
+
+const AFTER_HELP: &str = "\
+Examples:
+  percuss materials import plate.k --units mm-kg-ms
+  percuss materials import plate.k --units mm-t-s --out plate.toml
+
+Exit codes: 0 ok, 2 bad input, 4 a file could not be read or written";
+
+/// Read materials from an LS-DYNA deck
+#[derive(Debug, Args)]
+#[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
+pub struct Import {
+    /// Deck
+    #[arg(value_name = "DECK.k")]
+    deck: PathBuf,
+    /// Unit system of the deck: length, mass and time
+    #[arg(long, value_name = "SYSTEM", value_parser = PossibleValuesParser::new(UnitSystem::NAMES))]
+    units: String,
+    /// Write the records to a file
+    #[arg(long, value_name = "FILE.toml")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Serialize)]
+struct Record<'a> {
+    records: &'a MaterialTable,
+    warnings: &'a [String],
+}
+
+impl Import {
+    pub fn run(&self, json: bool) -> Result<(), Failure> {
+        let found = self.read()?;
+        let files = self.write(&found)?;
+        for warning in &found.warnings {
+            diagnostic::print(&terminal::warning(warning));
+        }
+        let files = FileList::new(&files);
+        if json {
+            return files.print_json(&record(&found), false);
+        }
+        match self.out {
+            Some(_) => files.print_under(listed(&found)),
+            None => output::print(&materials_toml(&found.records)),
+        }
+    }
+
+    /// Output of --json.
+    pub fn execute(&self) -> Result<Response, Failure> {
+        let found = self.read()?;
+        let files = self.write(&found)?;
+        Response::json_of(&record(&found), files)
+    }
+
+    fn read(&self) -> Result<Imported, Failure> {
+        let document = Document::read(&self.deck)?;
+        // clap lets no other name through.
+        let units = UnitSystem::named(&self.units).unwrap_or(UnitSystem::ALL[0]);
+        Ok(lsdyna::read(&document.file, &document.text, units)?)
+    }
+
+    fn write(&self, found: &Imported) -> Result<Vec<PathBuf>, Failure> {
+        write_file(self.out.as_ref(), &materials_toml(&found.records))
+    }
+}
+
+fn record(found: &Imported) -> Record<'_> {
+    Record {
+        records: &found.records,
+        warnings: &found.warnings,
+    }
+}
+
+fn listed(found: &Imported) -> String {
+    let line = |(id, material): (&String, &Material)| format!("{id}: {}\n", material.name);
+    found.records.iter().map(line).collect()
+}

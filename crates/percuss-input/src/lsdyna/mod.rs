@@ -1,0 +1,51 @@
+//! Material cards of LS-DYNA decks: read as records of the library, and written from them.
+//!
+//! `*MAT_JOHNSON_COOK` (015), `*MAT_SIMPLIFIED_JOHNSON_COOK` (098) and `*EOS_GRUNEISEN`, joined by `*PART` or by equal numbers. Decks carry
+//! no units: the caller names a [`UnitSystem`].
+//!
+//! ```
+//! use percuss::lsdyna::{self, UnitSystem};
+//!
+//! let deck = "*MAT_JOHNSON_COOK_TITLE
+//! 4340 steel
+//! 1,7.83e-6,80.,208.,0.3
+//! 0.792,0.51,0.26,0.014,1.03,1793.,298.,0.001
+//! 477.
+//! ";
+//! let units = UnitSystem::named("mm-kg-ms").unwrap();
+//! let found = lsdyna::read("plate.k", deck, units)?;
+//! assert_eq!(found.records["4340-steel"].density.si(), 7830.0);
+//! # Ok::<(), percuss::Error>(())
+//! ```
+
+mod deck;
+mod equation_of_state;
+mod johnson_cook;
+mod record;
+#[cfg(test)]
+mod tests;
+mod units;
+mod write;
+
+use crate::{error::Error, material::MaterialTable};
+
+pub use units::UnitSystem;
+pub use write::write;
+
+/// What was read from a deck.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Imported {
+    /// The records by their ids, which come from the titles.
+    pub records: MaterialTable,
+    /// What the records leave out, a line each.
+    pub warnings: Vec<String>,
+}
+
+/// Reads the materials of a deck; `file` stands for it in messages.
+///
+/// # Errors
+/// [`Error::Input`] with the place of a card that cannot be read, or whose values no material has; also where a deck has no material
+/// that can be read.
+pub fn read(file: &str, text: &str, units: UnitSystem) -> Result<Imported, Error> {
+    record::read(&deck::Deck::parse(file, text), units)
+}
