@@ -3,6 +3,7 @@
 use std::{
     fs,
     path::{Path, PathBuf},
+    sync::{Mutex, PoisonError},
 };
 
 use percuss::{
@@ -12,6 +13,7 @@ use percuss::{
     outcome::RunResult,
     summary::CaseResults,
 };
+use percuss_report::Figure;
 
 use crate::{failure::Failure, output};
 
@@ -100,11 +102,14 @@ impl RunFolder {
         self.written
             .extend(percuss_report::write_shapes(&self.path, result)?);
         let figures = percuss_report::run_figures(scenario, result)?;
-        let count = figures.len() as f64;
-        for (i, figure) in figures.iter().enumerate() {
-            report(i as f64 / count, &format!("drawing {}", figure.name));
-            self.written.extend(figure.write(&self.path)?);
-        }
+        let report = Mutex::new(report);
+        let drawn = |finished: usize, name: &str| {
+            let part = finished as f64 / figures.len() as f64;
+            let mut report = report.lock().unwrap_or_else(PoisonError::into_inner);
+            report(part, &format!("drawn {name}"));
+        };
+        let files = percuss_report::write_figures(&self.path, &figures, &drawn)?;
+        self.written.extend(files);
         Ok(self.written)
     }
 
@@ -121,6 +126,13 @@ impl RunFolder {
             self.written.extend(figure.write(&self.path)?);
         }
         Ok(self.written)
+    }
+
+    /// Writes figures.
+    pub fn add_figures(&mut self, figures: &[Figure]) -> Result<(), Failure> {
+        let files = percuss_report::write_figures(&self.path, figures, &|_, _| ())?;
+        self.add(files);
+        Ok(())
     }
 
     /// Writes a file.

@@ -1,6 +1,11 @@
 //! A figure: an SVG drawing, its name and caption.
 
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    sync::atomic::{AtomicUsize, Ordering},
+};
+
+use rayon::prelude::*;
 
 use crate::{ReportError, replace_file::replace_file};
 
@@ -43,4 +48,27 @@ impl Figure {
         let picture = self.svg.as_bytes();
         replace_file(folder, &format!("{}.{IN_PAGES}", self.name), picture)
     }
+}
+
+/// Writes figures as [`Figure::write`] does, side by side; the files are in the order of the figures. `finished` is told how many are done
+/// and the name of the last one.
+///
+/// # Errors
+/// Those of [`Figure::write`]; all other figures are written.
+pub fn write_figures(
+    folder: &Path,
+    figures: &[Figure],
+    finished: &(dyn Fn(usize, &str) + Sync),
+) -> Result<Vec<PathBuf>, ReportError> {
+    let done = AtomicUsize::new(0);
+    let written: Vec<_> = figures
+        .par_iter()
+        .map(|figure| {
+            let files = figure.write(folder);
+            finished(done.fetch_add(1, Ordering::Relaxed) + 1, &figure.name);
+            files
+        })
+        .collect();
+    let files: Result<Vec<_>, _> = written.into_iter().collect();
+    Ok(files?.concat())
 }

@@ -93,7 +93,7 @@ pub use error::ReportError;
 #[cfg(feature = "png")]
 pub use field::{FieldColors, FieldSpan, FieldView, animate, usual_range};
 pub use field::{FieldQuantity, FieldSeries, FinalField, FrameSelection};
-pub use figure::Figure;
+pub use figure::{Figure, write_figures};
 pub use flow_figure::{FlowCurve, flow_figure};
 pub use fragment_files::write_fragments;
 pub use heat_map::HeatMap;

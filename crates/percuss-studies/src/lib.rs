@@ -18,11 +18,11 @@ pub mod v50;
 pub mod validate;
 
 // What the studies use of the layers below.
+#[cfg(test)]
+use percuss_core::NumericalError;
 use percuss_core::{
     Error, Refusal, Scenario, check, document, error, fragments, material, options, outcome,
-    problem, regime, richardson, scenario, statistics, units, validity,
+    problem, regime, richardson, scenario, solver, statistics, units, validity,
 };
-#[cfg(test)]
-use percuss_core::{NumericalError, solver};
 use percuss_input::{case, inputs};
 use percuss_models::{analytic, axi, chain, model};

@@ -132,11 +132,10 @@ impl Converge {
         let study = self.compute(model, &scenario, on_progress)?;
         if let Some(folder) = &mut folder {
             folder.put("convergence.json", output::json(&study)?.as_bytes())?;
-            for i in 0..study.quantities.len() {
-                if let Some(figure) = convergence_figure(&scenario.name, &study, i) {
-                    folder.add(figure.write(folder.path())?);
-                }
-            }
+            let figures: Vec<_> = (0..study.quantities.len())
+                .filter_map(|i| convergence_figure(&scenario.name, &study, i))
+                .collect();
+            folder.add_figures(&figures)?;
         }
         Ok(ConvergenceOutput {
             scenario,

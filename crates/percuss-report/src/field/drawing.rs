@@ -14,7 +14,7 @@ use percuss::{
 use rayon::prelude::*;
 
 use super::{
-    FIELD, FieldQuantity, FieldSeries,
+    FieldQuantity, FieldSeries,
     animation::{self, Palette},
     colors::Colors,
     picture::Canvas,
@@ -26,27 +26,27 @@ use crate::{ReportError, caption::caption, png_file, replace_file::replace_file}
 /// Pixels of the picture at the end and of those of an animation per SVG user unit.
 const PICTURE_SCALE: f32 = 1.5;
 const ANIMATION_SCALE: f32 = 1.0;
-/// Name of the picture at the end.
-const PICTURE: &str = "field.png";
 /// Folder of the pictures of an animation.
 const FOLDER: &str = "frames";
 
-/// Writes a picture of one quantity of the field that a file holds.
+/// Writes a picture of one quantity of the field that a file holds, of these bytes, beside it.
 ///
 /// # Errors
 /// [`ReportError::Write`]; [`ReportError::Figure`].
 pub(super) fn write(
-    folder: &Path,
+    path: &Path,
     file: &[u8],
     scenario: &Scenario,
     quantity: FieldQuantity,
 ) -> Result<PathBuf, ReportError> {
-    let points = points(file, &folder.join(FIELD), quantity)?;
+    let points = points(file, path, quantity)?;
     let (canvas, _) = canvas(scenario, quantity, &span(&points));
     let base = canvas.base(PICTURE_SCALE)?;
     let picture = canvas.picture(&points, &base, PICTURE_SCALE)?;
-    let picture = png_file::encode(PICTURE, &picture)?;
-    replace_file(folder, PICTURE, &picture)
+    let folder = path.parent().unwrap_or(path);
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    let name = format!("{name}.png");
+    replace_file(folder, &name, &png_file::encode(&name, &picture)?)
 }
 
 /// Draws every frame of a series as `frames/frame-NNNNN.png`, and all of them as `animation.gif`. `progress` hears the part done, 0 to

@@ -37,8 +37,8 @@ pub use series::FieldSeries;
 #[cfg(feature = "png")]
 pub use span::{FieldSpan, usual_range};
 
-/// Name of the field at the end.
-const FIELD: &str = "field.vtp";
+/// Stem of the names of the field at the end.
+const FIELD: &str = "field";
 
 /// The field at the end of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,17 +59,31 @@ impl FinalField {
     ///
     /// # Errors
     /// [`ReportError::Write`]; [`ReportError::Figure`].
-    #[cfg_attr(not(feature = "png"), expect(unused_variables))]
     pub fn write(
         &self,
         folder: &Path,
         scenario: &Scenario,
         quantity: FieldQuantity,
     ) -> Result<Vec<PathBuf>, ReportError> {
-        let written = vec![replace_file(folder, FIELD, &self.file)?];
+        self.write_as(folder, FIELD, scenario, quantity)
+    }
+
+    /// The same with another stem of the file names.
+    ///
+    /// # Errors
+    /// Those of [`Self::write`].
+    #[cfg_attr(not(feature = "png"), expect(unused_variables))]
+    pub fn write_as(
+        &self,
+        folder: &Path,
+        stem: &str,
+        scenario: &Scenario,
+        quantity: FieldQuantity,
+    ) -> Result<Vec<PathBuf>, ReportError> {
+        let written = vec![replace_file(folder, &format!("{stem}.vtp"), &self.file)?];
         #[cfg(feature = "png")]
         let written = {
-            let picture = drawing::write(folder, &self.file, scenario, quantity)?;
+            let picture = drawing::write(&written[0], &self.file, scenario, quantity)?;
             [written, vec![picture]].concat()
         };
         Ok(written)

@@ -5,6 +5,8 @@ pub mod markdown;
 
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
+
 use crate::{
     Figure, ReportError,
     column::File,
@@ -28,8 +30,13 @@ pub fn write<'a>(
         replace_file(folder, &format!("{stem}.html"), html.as_bytes())?,
         replace_file(folder, &format!("{stem}.md"), markdown.as_bytes())?,
     ];
-    for figure in figures {
-        written.push(figure.write_for_page(folder)?);
+    let figures: Vec<_> = figures.collect();
+    let pictures: Vec<_> = figures
+        .par_iter()
+        .map(|figure| figure.write_for_page(folder))
+        .collect();
+    for picture in pictures {
+        written.push(picture?);
     }
     written.extend(replace_files(folder, files)?);
     Ok(written)

@@ -35,6 +35,7 @@ use crate::{
     outcome::{BandQuantity, Outcome, RunResult},
     richardson::OnMesh,
     scenario::TargetBody,
+    solver::frames::Frame,
 };
 
 pub use cost::{BUDGET, seconds};
@@ -136,6 +137,19 @@ pub fn answer(
     plan: &Plan,
     progress: &mut (dyn FnMut(f64) -> ControlFlow<()> + Send),
 ) -> Result<AxisymmetricAnswer, Error> {
+    answer_with_frames(scenario, plan, progress, &mut |_| ())
+}
+
+/// [`answer`]; `frames` gets the fields of the finest mesh while it runs.
+///
+/// # Errors
+/// Those of [`answer`].
+pub fn answer_with_frames(
+    scenario: &Scenario,
+    plan: &Plan,
+    progress: &mut (dyn FnMut(f64) -> ControlFlow<()> + Send),
+    frames: &mut (dyn FnMut(&Frame<'_>) + Send),
+) -> Result<AxisymmetricAnswer, Error> {
     let axi = model::model(MODEL)?;
     let costs: Vec<f64> = plan.cells.iter().map(|&n| seconds(scenario, n)).collect();
     let whole: f64 = costs.iter().sum();
@@ -148,6 +162,7 @@ pub fn answer(
         let sum: f64 = fractions.iter().zip(&costs).map(|(f, cost)| f * cost).sum();
         progress(sum / whole)
     };
+    let frames = Mutex::new(frames);
     // The finest mesh takes longest and starts first.
     let mut runs: Vec<Result<(MeshResult, RunResult), Error>> = (0..costs.len())
         .into_par_iter()
@@ -155,7 +170,19 @@ pub fn answer(
         .rev()
         .map(|mesh| {
             let mut watch = |now: model::Progress| report(mesh, now.fraction);
-            on_mesh(axi, scenario, plan.cells[mesh], &mut watch)
+            let mut show = |frame: &Frame<'_>| {
+                let mut frames = frames.lock().unwrap_or_else(PoisonError::into_inner);
+                frames(frame);
+                ControlFlow::Continue(())
+            };
+            let mut control = Control {
+                progress: Some(&mut watch),
+                ..Control::default()
+            };
+            if mesh + 1 == costs.len() {
+                control.frames = Some(&mut show);
+            }
+            on_mesh(axi, scenario, plan.cells[mesh], &mut control)
         })
         .collect();
     runs.reverse();
@@ -181,14 +208,10 @@ pub(crate) fn on_mesh(
     axi: &dyn Model,
     scenario: &Scenario,
     cells: u32,
-    watch: &mut dyn FnMut(model::Progress) -> ControlFlow<()>,
+    control: &mut Control<'_>,
 ) -> Result<(MeshResult, RunResult), Error> {
     let scenario = plan::on_cells(scenario, cells);
-    let mut control = Control {
-        progress: Some(watch),
-        ..Control::default()
-    };
-    let result = model::run(axi, &scenario, &mut control)?;
+    let result = model::run(axi, &scenario, control)?;
     Ok((MeshResult::new(cells, &result), result))
 }
 

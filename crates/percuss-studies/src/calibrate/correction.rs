@@ -6,7 +6,7 @@ use super::problem::Silent;
 use crate::{
     Error, Scenario,
     axisymmetric::{AxisymmetricAnswer, Request, on_mesh, untouched},
-    model::{self, Progress},
+    model::{self, Control, Progress},
     outcome::BandQuantity,
 };
 
@@ -123,7 +123,11 @@ fn number_on(
 ) -> Result<f64, Silent> {
     let axi = model::model("axi").map_err(silent)?;
     let mut watch = |now: Progress| report(now.fraction);
-    let (mesh, _) = on_mesh(axi, scenario, cells, &mut watch).map_err(silent)?;
+    let mut control = Control {
+        progress: Some(&mut watch),
+        ..Control::default()
+    };
+    let (mesh, _) = on_mesh(axi, scenario, cells, &mut control).map_err(silent)?;
     measurable(quantity, mesh.value(quantity))
         .map(|value| si(quantity, value))
         .ok_or_else(|| none(quantity, None))

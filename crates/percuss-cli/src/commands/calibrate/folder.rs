@@ -16,8 +16,6 @@ pub(super) fn write(found: &Calibrated, mut folder: RunFolder) -> Result<Vec<Pat
     if let Some(text) = found.toml() {
         folder.put("material.toml", text.as_bytes())?;
     }
-    for figure in percuss_report::calibration::figures(&found.calibration) {
-        folder.add(figure.write(folder.path())?);
-    }
+    folder.add_figures(&percuss_report::calibration::figures(&found.calibration))?;
     Ok(folder.written())
 }

@@ -8,6 +8,7 @@ use std::{
 use percuss::{
     Error, Refusal, Scenario,
     axisymmetric::{self, AxisymmetricAnswer, BUDGET, Plan, ReferenceMeshes},
+    frames::Frame,
     model::DEFAULT_MODEL,
     summary::ResultRecord,
 };
@@ -54,12 +55,13 @@ impl Wanted {
         self.plan.is_ok()
     }
 
-    /// Computes the answer, until `stop` becomes true or the callback breaks.
+    /// Computes the answer, until `stop` becomes true or the callback breaks; `frames` gets the fields of the finest mesh.
     pub fn compute(
         &self,
         scenario: &Scenario,
         stop: &AtomicBool,
         on_progress: ProgressCallback<'_>,
+        frames: &mut (dyn FnMut(&Frame<'_>) + Send),
     ) -> Result<AxisymmetricAnswer, Error> {
         let plan = match &self.plan {
             Ok(plan) => plan,
@@ -73,7 +75,7 @@ impl Wanted {
             true => ControlFlow::Break(()),
             false => on_progress(fraction, &words),
         };
-        axisymmetric::answer(scenario, plan, &mut report)
+        axisymmetric::answer_with_frames(scenario, plan, &mut report, frames)
     }
 
     /// The answer of a computation that the user stopped.

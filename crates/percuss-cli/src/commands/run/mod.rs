@@ -57,8 +57,9 @@ With --out DIR a copy of the case (case-as-run.toml, with the materials of the
 files that it names), result.json, the time histories (CSV and Parquet) and the
 figures (SVG and PNG) are written to DIR, which is made if it does not exist. A
 case-as-run.toml needs no other file and gives the same results. A model without
-time histories writes the first two only. Files of the same names are replaced,
-other files are kept.
+time histories writes the first two only. The fields of the axisymmetric answer
+at its end are axisymmetric.vtp for ParaView and a picture, axisymmetric.png.
+Files of the same names are replaced, other files are kept.
 
 With --fields the models `chain`, `fdm` and `axi` also write their fields against
 time as a series for ParaView (fields.pvd, which can be opened during the run).
@@ -169,7 +170,7 @@ impl Run {
                 true => workers::stop_on_request(),
                 false => Arc::clone(&stop),
             };
-            let answer = self.axisymmetric(wanted, &run_output, &stop)?;
+            let answer = self.axisymmetric(wanted, &mut task, &stop)?;
             was_stopped = answer.is_none();
             run_output.axisymmetric = Some(answer.unwrap_or_else(|| wanted.stopped()));
         }
@@ -200,7 +201,12 @@ impl Run {
             let mut report = |part: f64, words: &str| {
                 on_progress(COMPUTED * (model + (1.0 - model) * part), words)
             };
-            let answer = wanted.compute(&run_output.scenario, stop, &mut report)?;
+            let answer = wanted.compute(
+                &run_output.scenario,
+                stop,
+                &mut report,
+                &mut task.axisymmetric_frames(),
+            )?;
             run_output.axisymmetric = Some(answer);
         }
         let files = task.write(&run_output, &mut |part, words| {
@@ -217,11 +223,14 @@ impl Run {
     fn axisymmetric(
         &self,
         wanted: &Wanted,
-        run_output: &RunOutput,
+        task: &mut Task<'_>,
         stop: &AtomicBool,
     ) -> Result<Option<AxisymmetricAnswer>, Failure> {
         let mut progress = Progress::new(!self.quiet);
-        let answer = wanted.compute(&run_output.scenario, stop, &mut progress.callback());
+        let scenario = Arc::clone(task.scenario());
+        let mut frames = task.axisymmetric_frames();
+        let answer = wanted.compute(&scenario, stop, &mut progress.callback(), &mut frames);
+        drop(frames);
         progress.finish();
         match answer {
             Err(Error::Cancelled { .. }) => Ok(None),

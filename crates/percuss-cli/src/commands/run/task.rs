@@ -29,6 +29,8 @@ use crate::{
 
 /// Default of the largest number of frames.
 const FRAMES: u16 = 64;
+/// Stem of the files of the axisymmetric fields.
+const AXISYMMETRIC: &str = "axisymmetric";
 /// Default interval of the checkpoints.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(60);
 
@@ -39,6 +41,8 @@ pub(super) struct Task<'a> {
     chosen: ChosenModel,
     folder: Option<RunFolder>,
     fields: Option<Fields<'a>>,
+    /// Final fields of the axisymmetric answer.
+    axisymmetric: Option<FinalField>,
 }
 
 /// Fields and checkpoints of a run in its folder.
@@ -91,12 +95,24 @@ impl<'a> Task<'a> {
             chosen,
             folder,
             fields,
+            axisymmetric: None,
         })
     }
 
     /// The case.
-    pub fn scenario(&self) -> &Scenario {
+    pub fn scenario(&self) -> &Arc<Scenario> {
         &self.scenario
+    }
+
+    /// Keeps the final fields of an axisymmetric answer, where there is a folder for them.
+    pub fn axisymmetric_frames(&mut self) -> impl FnMut(&Frame<'_>) + Send {
+        let wanted = self.folder.is_some();
+        let last = &mut self.axisymmetric;
+        move |frame: &Frame<'_>| {
+            if frame.last && wanted {
+                *last = Some(FinalField::of(frame));
+            }
+        }
     }
 
     /// Executes the run. A run with checkpoints is stopped by its checkpoint writer alone.
@@ -142,6 +158,12 @@ impl<'a> Task<'a> {
             &run_output.results(),
             report,
         )?;
+        let has_answer = run_output.axisymmetric.as_ref();
+        let has_answer = has_answer.is_some_and(|answer| answer.finest.is_some());
+        if let Some(last) = self.axisymmetric.take().filter(|_| has_answer) {
+            let quantity = FieldQuantity::default();
+            files.extend(last.write_as(out, AXISYMMETRIC, &run_output.scenario, quantity)?);
+        }
         if let Some(fields) = &mut self.fields {
             let written = fields.write(self.options, out, &run_output.scenario, report)?;
             files.extend(written);

@@ -306,8 +306,6 @@ impl Uncertainty {
 fn write(mut folder: RunFolder, study: &Study, found: &Analysis) -> Result<Vec<PathBuf>, Failure> {
     folder.put("uncertainty.json", output::json(found)?.as_bytes())?;
     folder.add(percuss_report::write_uncertainty(folder.path(), found)?);
-    for figure in percuss_report::uncertainty_figures(&study.scenario, found) {
-        folder.add(figure.write(folder.path())?);
-    }
+    folder.add_figures(&percuss_report::uncertainty_figures(&study.scenario, found))?;
     Ok(folder.written())
 }
