@@ -1,4 +1,4 @@
-//! The README's commands do what it says, in an empty folder; its library example is a doc test of `percuss`.
+//! The commands of the README and of the quick start do what these say, in an empty folder; the library example is a doc test of `percuss`.
 
 use std::{
     fs,
@@ -14,6 +14,10 @@ fn root() -> PathBuf {
 
 fn readme() -> String {
     fs::read_to_string(root().join("README.md")).unwrap()
+}
+
+fn quick_start() -> String {
+    fs::read_to_string(root().join("docs/quick-start.md")).unwrap()
 }
 
 /// Lines of all blocks of a language.
@@ -124,9 +128,30 @@ fn the_table_of_the_readme_is_real() {
     }
 }
 
-/// What the README shows of a comparison is what is printed.
+/// A case with this slip has the error that the quick start shows.
 #[test]
-fn the_comparison_of_the_readme_is_real() {
+fn the_error_of_the_quick_start_is_real() {
+    let case = lines(&readme(), "toml")
+        .join("\n")
+        .replace("4.8 mm", "4.8 kg");
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("scenario.toml"), case).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_percuss"))
+        .args(["run", "scenario.toml"])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    let printed = String::from_utf8_lossy(&output.stderr).into_owned();
+    let shown = lines(&quick_start(), "text");
+    let from = shown.iter().position(|line| line.starts_with("error"));
+    for line in &shown[from.unwrap()..] {
+        assert!(printed.contains(line), "`{line}` is not in\n{printed}");
+    }
+}
+
+/// What the quick start shows of a comparison is what is printed.
+#[test]
+fn the_comparison_of_the_quick_start_is_real() {
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/paper-table1/scenario.toml");
     let output = Command::new(env!("CARGO_BIN_EXE_percuss"))
         .arg("compare")
@@ -134,7 +159,7 @@ fn the_comparison_of_the_readme_is_real() {
         .output()
         .unwrap();
     let printed = String::from_utf8_lossy(&output.stdout).into_owned();
-    let shown = lines(&readme(), "text");
+    let shown = lines(&quick_start(), "text");
     let from = shown
         .iter()
         .position(|line| line.starts_with("regime "))

@@ -13,7 +13,7 @@ import pytest
 from conftest import ROOT
 
 MODULES = [module.name for module in pkgutil.iter_modules(percuss.__path__) if not module.name.startswith("_")]
-PAGES = [ROOT / "docs/python.md", ROOT / "README.md"]
+PAGES = [ROOT / "docs/python.md", ROOT / "docs/quick-start.md"]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)

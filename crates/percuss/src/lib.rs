@@ -30,7 +30,7 @@ pub use percuss_core::{
     statistics, units, validity,
 };
 #[doc(inline)]
-pub use percuss_input::{case, inputs};
+pub use percuss_input::{case, inputs, lsdyna};
 #[doc(inline)]
 pub use percuss_models::{analytic, axi, chain, fdm, model, particles};
 #[doc(inline)]
@@ -39,8 +39,8 @@ pub use percuss_studies::{
     uncertainty, v50, validate,
 };
 
-/// The README's library example, run from the folder that it stands in.
+/// The library example of the quick start, run from the folder that it stands in.
 #[cfg(doctest)]
-mod readme {
-    #![doc = include_str!("../../../README.md")]
+mod quick_start {
+    #![doc = include_str!("../../../docs/quick-start.md")]
 }
