@@ -7,10 +7,28 @@ use percuss::{
     material::Library,
 };
 
-use crate::failure::Failure;
+use crate::{diagnostic, failure::Failure};
 
 /// Value that selects the tests of the program.
 pub const BUILT_IN: &str = "builtin";
+
+/// Says which columns of a file nothing reads.
+pub fn note_unread(path: &Path, columns: &[String]) {
+    if !columns.is_empty() {
+        let what = match columns.len() {
+            1 => "the column",
+            _ => "the columns",
+        };
+        let names: Vec<String> = columns.iter().map(|name| format!("`{name}`")).collect();
+        let text = format!(
+            "note: {what} {} of `{}` {} not read\n",
+            names.join(", "),
+            path.display(),
+            if columns.len() == 1 { "is" } else { "are" }
+        );
+        diagnostic::print(&text);
+    }
+}
 
 /// Tests of these files and kinds, with their sources; an empty list of kinds selects all.
 pub fn read(
@@ -25,8 +43,9 @@ pub fn read(
             (experiments::built_in().to_vec(), own)
         } else {
             let read = experiments::read(path, library)?;
-            let name = format!("{} ({})", path.display(), read.len());
-            (read, name)
+            note_unread(path, &read.unread_columns);
+            let name = format!("{} ({})", path.display(), read.tests.len());
+            (read.tests, name)
         };
         if let Some(twice) = more
             .iter()

@@ -351,3 +351,28 @@ fn a_limit_that_is_an_input_is_no_result() {
         "{text}"
     );
 }
+
+/// A column of the user's own is not read and is named; a misspelt one is an error.
+#[test]
+fn further_columns_of_tests_are_noted() {
+    let folder = TempDir::new().unwrap();
+    let rows = |header: &str| {
+        format!("{header}\n300,no,a\n325,yes,b\n318,no,b\n322,yes,a\n312,yes,a\n310,no,b\n")
+    };
+    let path = folder.path().join("shots.csv");
+    fs::write(&path, rows("impact_velocity_m_s,perforated,shooter")).unwrap();
+    let said = percuss(folder.path(), ["limit", "--shots", "shots.csv"]);
+    assert_eq!(said.code, 0, "{}", said.stderr);
+    assert_eq!(
+        said.stderr,
+        "note: the column `shooter` of `shots.csv` is not read\n"
+    );
+    fs::write(&path, rows("impact_velocity_m_s,perforatd,shooter")).unwrap();
+    let said = percuss(folder.path(), ["limit", "--shots", "shots.csv"]);
+    assert_eq!(said.code, 2);
+    assert!(
+        said.stderr.contains("did you mean `perforated`?"),
+        "{}",
+        said.stderr
+    );
+}

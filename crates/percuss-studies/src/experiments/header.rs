@@ -1,72 +1,59 @@
 //! The first line of a file of tests.
 
-use super::{
-    columns::COLUMNS,
-    row::{CsvTable, field_span},
-};
+use super::row::{CsvTable, field_span};
 use crate::{
     document::Renamed,
     error::{InputError, nearest},
     units::shorten,
 };
 
-/// Makes sure that the columns are known, each once, and that none is missing.
-pub(super) fn check(table: &CsvTable<'_>) -> Result<(), Box<InputError>> {
-    let names = || COLUMNS.iter().map(|column| column.name);
-    let missing: Vec<&str> = COLUMNS
+/// Makes sure that columns are there once and that none is missing; returns those that nothing reads.
+///
+/// A name near that of a known column is taken as misspelt, and so is the only name of a line.
+pub(crate) fn check(
+    table: &CsvTable<'_>,
+    known: &[&str],
+    required: &[&str],
+) -> Result<Vec<String>, Box<InputError>> {
+    let missing: Vec<&str> = required
         .iter()
-        .filter(|column| column.required && !table.header.iter().any(|name| name == column.name))
-        .map(|column| column.name)
+        .copied()
+        .filter(|column| !table.header.iter().any(|name| name == column))
         .collect();
-    let unknown = |name: &str| !names().any(|known| known == name);
+    let separator = match table.header.len() {
+        1 => "; columns are separated by commas",
+        _ => "",
+    };
+    let mut unread = Vec::new();
     // A misspelt name tells more than the name that is missing for it.
     for (i, name) in table.header.iter().enumerate() {
         let span = field_span(table.text, 0, i);
         if table.header[..i].contains(name) {
-            return Err(table.error(
-                span,
-                name,
-                format!("two columns are named `{}`", shorten(name)),
-                "remove one",
-            ));
+            let message = format!("two columns are named `{}`", shorten(name));
+            return Err(table.error(span, name, message, "remove one"));
         }
-        if unknown(name) && !(missing.len() > 2 && table.header.len() == 1) {
-            if let Some(renamed) = Renamed::of(name) {
-                return Err(table.error(span, name, renamed.message(), renamed.help()));
-            }
-            let near = nearest(name, names())
-                .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
-            return Err(table.error(
-                span,
-                name,
-                format!("no column is named `{}`", shorten(name)),
-                format!("{near}the README of the tests lists all columns; remove the others"),
-            ));
+        if known.contains(&name.as_str()) {
+            continue;
         }
+        if let Some(renamed) = Renamed::of(name) {
+            return Err(table.error(span, name, renamed.message(), renamed.help()));
+        }
+        if let Some(near) = nearest(name, known.iter().copied()) {
+            let message = format!("no column is named `{}`", shorten(name));
+            let help = format!("did you mean `{near}`? rename a column of another kind{separator}");
+            return Err(table.error(span, name, message, help));
+        }
+        unread.push(shorten(name));
     }
     if missing.is_empty() {
-        return Ok(());
+        return Ok(unread);
     }
-    let separator = if table.header.len() == 1 {
-        "; columns are separated by commas"
-    } else {
-        ""
-    };
-    Err(table.error(
-        0..0,
-        "",
-        format!("the first line lacks {}", in_ticks(&missing)),
-        format!(
-            "the first line names the columns; required are {}{separator}",
-            in_ticks(
-                &COLUMNS
-                    .iter()
-                    .filter(|c| c.required)
-                    .map(|c| c.name)
-                    .collect::<Vec<_>>()
-            )
-        ),
-    ))
+    let message = format!("the first line lacks {}", in_ticks(&missing));
+    let help = format!(
+        "the first line names the columns; required are {}{separator}",
+        in_ticks(required)
+    );
+    Err(table.error(0..0, "", message, help))
 }
 
 fn in_ticks(names: &[&str]) -> String {

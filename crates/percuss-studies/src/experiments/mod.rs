@@ -4,7 +4,7 @@
 //! the same columns.
 
 mod columns;
-mod header;
+pub(crate) mod header;
 mod materials;
 mod read;
 pub(crate) mod row;
@@ -17,7 +17,7 @@ use std::sync::LazyLock;
 use serde::Serialize;
 
 pub use columns::{COLUMNS, CsvColumn};
-pub use read::{read, read_str};
+pub use read::{TestFile, read, read_str};
 
 use crate::{case::Nose, material::Library, material::Trust, outcome::BandQuantity};
 

@@ -16,13 +16,22 @@ use crate::{
     units::shorten,
 };
 
-/// Reads a file of tests whose materials a library has; [`COLUMNS`] says what it holds.
+/// Tests of a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TestFile<T> {
+    /// The tests, in the order of the rows.
+    pub tests: Vec<T>,
+    /// Columns of other names, which nothing reads.
+    pub unread_columns: Vec<String>,
+}
+
+/// Reads a file of tests whose materials a library has; [`COLUMNS`] says what it holds. Other columns are not read.
 ///
 /// # Errors
 /// [`Error::Read`] when it cannot be read, [`Error::Input`] with the place when its content is not valid.
-pub fn read(path: impl AsRef<Path>, library: &Library) -> Result<Vec<Experiment>, Error> {
+pub fn read(path: impl AsRef<Path>, library: &Library) -> Result<TestFile<Experiment>, Error> {
     let path = path.as_ref();
-    read_str(&path.display().to_string(), &read_text(path)?, library)
+    file(&path.display().to_string(), &read_text(path)?, library)
 }
 
 /// Reads tests from a text; `name` stands for the file in messages.
@@ -30,8 +39,15 @@ pub fn read(path: impl AsRef<Path>, library: &Library) -> Result<Vec<Experiment>
 /// # Errors
 /// [`Error::Input`] with the place when the text is not valid.
 pub fn read_str(name: &str, text: &str, library: &Library) -> Result<Vec<Experiment>, Error> {
+    Ok(file(name, text, library)?.tests)
+}
+
+fn file(name: &str, text: &str, library: &Library) -> Result<TestFile<Experiment>, Error> {
     let (table, records) = CsvTable::read(name, text)?;
-    header::check(&table)?;
+    let known: Vec<&str> = COLUMNS.iter().map(|column| column.name).collect();
+    let required = COLUMNS.iter().filter(|column| column.required);
+    let required: Vec<&str> = required.map(|column| column.name).collect();
+    let unread_columns = header::check(&table, &known, &required)?;
     let mut tests: Vec<Experiment> = Vec::new();
     let mut rows: BTreeMap<String, CsvRow<'_>> = BTreeMap::new();
     for record in records {
@@ -76,7 +92,10 @@ pub fn read_str(name: &str, text: &str, library: &Library) -> Result<Vec<Experim
             )
             .into());
     }
-    Ok(tests)
+    Ok(TestFile {
+        tests,
+        unread_columns,
+    })
 }
 
 fn test(row: &CsvRow<'_>, library: &Library) -> Result<Experiment, Box<InputError>> {

@@ -5,10 +5,13 @@ use std::path::Path;
 use super::Test;
 use crate::{
     check::limits::IMPACT_VELOCITY,
-    document::{Renamed, read_text},
-    error::{Error, InputError, nearest},
-    experiments::row::{CsvRow, CsvTable, field_span},
-    units::{Velocity, shorten},
+    document::read_text,
+    error::{Error, InputError},
+    experiments::{
+        TestFile, header,
+        row::{CsvRow, CsvTable},
+    },
+    units::Velocity,
 };
 
 const VELOCITY: &str = "impact_velocity_m_s";
@@ -17,13 +20,13 @@ const PERFORATED: &str = "perforated";
 /// Columns of a file: the impact velocity [m/s], `yes` or `no`, and a note that nothing reads.
 pub const COLUMNS: [&str; 3] = [VELOCITY, PERFORATED, "note"];
 
-/// Reads a file of tests: comma-separated values with the columns [`COLUMNS`], of which the first two are required.
+/// Reads a file of tests: comma-separated values with the columns [`COLUMNS`], of which the first two are required. Others are not read.
 ///
 /// # Errors
 /// [`Error::Read`] when it cannot be read, [`Error::Input`] with the place when its content is not valid.
-pub fn read(path: impl AsRef<Path>) -> Result<Vec<Test>, Error> {
+pub fn read(path: impl AsRef<Path>) -> Result<TestFile<Test>, Error> {
     let path = path.as_ref();
-    read_str(&path.display().to_string(), &read_text(path)?)
+    file(&path.display().to_string(), &read_text(path)?)
 }
 
 /// Reads tests from a text; `name` stands for the file in messages.
@@ -31,8 +34,12 @@ pub fn read(path: impl AsRef<Path>) -> Result<Vec<Test>, Error> {
 /// # Errors
 /// [`Error::Input`] with the place when the text is not valid.
 pub fn read_str(name: &str, text: &str) -> Result<Vec<Test>, Error> {
+    Ok(file(name, text)?.tests)
+}
+
+fn file(name: &str, text: &str) -> Result<TestFile<Test>, Error> {
     let (table, records) = CsvTable::read(name, text)?;
-    check_header(&table)?;
+    let unread_columns = header::check(&table, &COLUMNS, &[VELOCITY, PERFORATED])?;
     let mut tests = Vec::new();
     for record in records {
         tests.push(test(&CsvRow {
@@ -45,46 +52,10 @@ pub fn read_str(name: &str, text: &str) -> Result<Vec<Test>, Error> {
         let error = table.error(0..0, "", "the file holds no test", help);
         return Err(error.into());
     }
-    Ok(tests)
-}
-
-fn check_header(table: &CsvTable<'_>) -> Result<(), Box<InputError>> {
-    let known = || COLUMNS.iter().copied();
-    let separated = match table.header.len() {
-        1 => "; columns are separated by commas",
-        _ => "",
-    };
-    for (i, name) in table.header.iter().enumerate() {
-        let span = field_span(table.text, 0, i);
-        if table.header[..i].contains(name) {
-            let message = format!("two columns are named `{}`", shorten(name));
-            return Err(table.error(span, name, message, "remove one"));
-        }
-        if !known().any(|column| column == name) {
-            if let Some(renamed) = Renamed::of(name) {
-                return Err(table.error(span, name, renamed.message(), renamed.help()));
-            }
-            let near = nearest(name, known())
-                .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
-            return Err(table.error(
-                span,
-                name,
-                format!("no column is named `{}`", shorten(name)),
-                format!("{near}columns are {}{separated}", COLUMNS.join(", ")),
-            ));
-        }
-    }
-    for required in [VELOCITY, PERFORATED] {
-        if !table.header.iter().any(|name| name == required) {
-            return Err(table.error(
-                0..0,
-                "",
-                format!("the first line lacks `{required}`"),
-                format!("the first line names the columns: {VELOCITY},{PERFORATED}{separated}"),
-            ));
-        }
-    }
-    Ok(())
+    Ok(TestFile {
+        tests,
+        unread_columns,
+    })
 }
 
 fn test(row: &CsvRow<'_>) -> Result<Test, Box<InputError>> {

@@ -25,6 +25,7 @@ use crate::{
     progress::Progress,
     response::{ProgressCallback, Response, VirtualFiles},
     run_folder::RunFolder,
+    shot_data::note_unread,
 };
 
 const LONG_ABOUT: &str = "\
@@ -178,7 +179,11 @@ impl Limit {
         let scenario = document.as_ref().map(case::scenario).transpose()?;
         let shots = self.shots.as_ref().map(v50::read).transpose()?;
         let folder = RunFolder::wanted(self.out.as_deref(), document.as_ref())?;
-        let shots = shots.map(|shots| {
+        let shots = shots.map(|file| {
+            if let Some(path) = &self.shots {
+                note_unread(path, &file.unread_columns);
+            }
+            let shots = file.tests;
             let v50 = v50::estimate(&shots, self.span.unwrap_or(v50::SPAN));
             (shots, v50)
         });
