@@ -92,10 +92,11 @@ def types() -> str:
     return (
         '"""Types of the values of results and histories, for editors and type checkers. Written by reference.py."""\n\n'
         "from __future__ import annotations\n\n"
-        "from typing import Any\n\n"
-        "from numpy.typing import NDArray\n\n"
+        "from typing import TYPE_CHECKING, Any\n\n"
         "from .record import Record\n\n"
-        "Array = NDArray[Any]\n"
+        "if TYPE_CHECKING:\n"
+        "    from numpy.typing import NDArray\n\n"
+        "    Array = NDArray[Any]\n"
         + typed("ResultValues", "Values of the result of a run.", _percuss.result_fields())
         + typed("SampleColumns", "Columns of a history.", _percuss.sample_columns())
         + typed("ElementColumns", "Columns of a state along the axis.", _percuss.element_columns())

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy
-
 from . import _percuss, fields
 from .values import ElementColumns, SampleColumns
 
@@ -31,6 +29,8 @@ class _Columns:
         column = None if name.startswith("_") else self._column(name)
         if column is None:
             raise AttributeError(f"no column is named `{name}`; columns: {', '.join(self.names())}")
+        import numpy
+
         array: Array = numpy.asarray(column)
         self.__dict__[name] = array
         return array
@@ -53,6 +53,7 @@ class _Columns:
 
     def to_arrow(self) -> pyarrow.Table:
         """All columns as a table of Arrow, which is a copy."""
+        import numpy
         import pyarrow
 
         return pyarrow.table({name: numpy.ascontiguousarray(self[name]) for name in self.names()})
@@ -77,6 +78,8 @@ class _Rows(_Columns):
         column = self._memory(field.si_name)
         if column is None or field.per_si == 1.0:
             return column
+        import numpy
+
         array: Array = numpy.asarray(column) * field.per_si
         array.setflags(write=False)
         return array
@@ -166,6 +169,8 @@ class Gauge(ElementColumns, _Rows):
     @property
     def time_us(self) -> Array:
         """Times [us]."""
+        import numpy
+
         times: Array = numpy.asarray(self._native.gauge_times(self._index)) * _TIME.per_si
         return times
 

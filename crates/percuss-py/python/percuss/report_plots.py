@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-import numpy
-
 from .plots import new_axes
 
 if TYPE_CHECKING:
@@ -41,6 +39,8 @@ def errors(benchmark: Benchmark, by: str | None, ax: Axes | None) -> Axes:
 
 
 def _absolute_errors(benchmark: Benchmark, by: str, candidates: list[str], ax: Axes) -> Axes:
+    import numpy
+
     groups = benchmark.errors(by)
     values = list(dict.fromkeys(group.value for group in groups))
     grid = numpy.full((len(candidates), len(values)), numpy.nan)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy
-
 from .plots import label, new_axes
 
 if TYPE_CHECKING:
@@ -41,6 +39,8 @@ def short(key: str) -> str:
 
 
 def histogram(found: Uncertainty, quantity: str | None, ax: Axes | None) -> Axes:
+    import numpy
+
     ax = new_axes(ax)
     of = found.quantity(quantity)
     words = label(of.quantity)
