@@ -48,7 +48,7 @@ fn the_table_has_limits_brackets_and_fits_and_says_who_has_none() {
         "plugging ★",
         "★ recommended: plugging: ",
         "models that predict a limit: ",
-        "no estimated model error of chain, fdm, plugging, awerbuch_bodner: fewer than 5 published limits",
+        "no estimated model error of chain, fdm, plugging, awerbuch_bodner, power_balance: fewer than 5 published limits",
         "residual velocity above a given limit (an input, not a prediction of the limit)",
         "without a limit",
         "plate_cavity: not applicable, because it takes",

@@ -7,8 +7,8 @@ use crate::{
     Error,
     analytic::{
         AwerbuchBodner, CraterEnergy, Forrestal, ForrestalConcrete, Hydrodynamic, LambertJonas,
-        LanzOdermatt, PlateCavity, Plugging, Poncelet, QuasiStatic, RechtIpson, Tate, Taylor,
-        WalkerAnderson, WilkinsGuinan,
+        LanzOdermatt, PlateCavity, Plugging, Poncelet, PowerBalance, QuasiStatic, RechtIpson, Tate,
+        Taylor, WalkerAnderson, WilkinsGuinan,
     },
     axi::Axi,
     chain::Chain,
@@ -49,6 +49,7 @@ pub static MODELS: &[&dyn Model] = &[
     &RechtIpson,
     &LambertJonas,
     &AwerbuchBodner,
+    &PowerBalance,
 ];
 
 /// The models that take seconds at most: what comparisons and validations run unless models are named.

@@ -49,7 +49,7 @@ const PIN: [&str; 2] = [
 ];
 const HARD: &str = "materials.hard = { name = 'Elastic', density = '2500 kg/m3', youngs_modulus = '70 GPa', poissons_ratio = 0.22, strength.elastic = {} }";
 
-const TRIES: [Try; 11] = [
+const TRIES: [Try; 12] = [
     Try {
         shot: THICK,
         model: "chain",
@@ -108,6 +108,7 @@ const TRIES: [Try; 11] = [
         [OGIVE, "material = '6061-t6-lesuer', thickness = '12 mm'"],
     ),
     of_formula("wilkins_guinan", [ROD[0], "rigid_wall = true"]),
+    of_formula("power_balance", PLATE),
 ];
 
 /// Keys of options that are given beside the defaults, so that none of them is tried.

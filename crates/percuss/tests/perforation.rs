@@ -290,13 +290,16 @@ fn lambert_and_jonas_contain_recht_and_ipson() {
     }
 }
 
-const MODELS: [(&str, &str, f64); 6] = [
+const MODELS: [(&str, &str, f64); 9] = [
     ("plate_cavity", OGIVE, 30.0),
     ("plate_cavity", "\"hemisphere\"", 30.0),
     ("plugging", "\"flat\"", 10.0),
     ("recht_ipson", "\"flat\"", 10.0),
     ("lambert_jonas", "\"flat\"", 10.0),
     ("awerbuch_bodner", "\"flat\"", 10.0),
+    ("power_balance", "\"flat\"", 10.0),
+    ("power_balance", "\"hemisphere\"", 10.0),
+    ("power_balance", OGIVE, 30.0),
 ];
 
 /// The limit that a model predicts, or the one that it starts from.

@@ -19,6 +19,7 @@ mod particles;
 mod plate_cavity;
 mod plugging;
 mod poncelet;
+mod power_balance;
 mod published_options;
 mod recht_ipson;
 mod shear_band;
@@ -46,6 +47,7 @@ pub use particles::{ParticlesOptions, Space};
 pub use plate_cavity::{CavityShape, PlateCavityOptions};
 pub use plugging::PluggingOptions;
 pub use poncelet::PonceletOptions;
+pub use power_balance::PowerBalanceOptions;
 pub use published_options::{
     ContactSpring, Interface, PublishedBorderShear, PublishedOptions, PublishedTimeStep,
     SmallStrainStiffness,
@@ -81,6 +83,7 @@ macro_rules! with_model_options {
             recht_ipson: $crate::options::RechtIpsonOptions,
             lambert_jonas: $crate::options::LambertJonasOptions,
             awerbuch_bodner: $crate::options::AwerbuchBodnerOptions,
+            power_balance: $crate::options::PowerBalanceOptions,
         }
     };
 }

@@ -20,6 +20,7 @@ mod plate_cavity;
 mod plate_impact;
 mod plugging;
 mod poncelet;
+mod power_balance;
 mod quasi_static;
 mod recht_ipson;
 mod rigid_motion;
@@ -41,6 +42,7 @@ pub use nose_load::NoseLoad;
 pub use plate_cavity::PlateCavity;
 pub use plugging::Plugging;
 pub use poncelet::Poncelet;
+pub use power_balance::PowerBalance;
 pub use quasi_static::QuasiStatic;
 pub use recht_ipson::RechtIpson;
 pub use tate::{Phase, Rods, Stop, Tate};
@@ -51,7 +53,7 @@ pub use wilkins_guinan::{WilkinsGuinan, wilkins_guinan_length, wilkins_guinan_yi
 pub use crate::options::{
     AwerbuchBodnerOptions, Cavity, CavityShape, CraterEnergyOptions, Entry,
     ForrestalConcreteOptions, ForrestalOptions, LambertJonasOptions, LanzOdermattOptions,
-    PlateCavityOptions, PluggingOptions, PonceletOptions, RechtIpsonOptions, TateOptions,
-    TaylorOptions, WalkerAndersonOptions, WilkinsGuinanOptions,
+    PlateCavityOptions, PluggingOptions, PonceletOptions, PowerBalanceOptions, RechtIpsonOptions,
+    TateOptions, TaylorOptions, WalkerAndersonOptions, WilkinsGuinanOptions,
 };
 pub use crate::solver::InputLimit;

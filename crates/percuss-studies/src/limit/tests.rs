@@ -2,7 +2,7 @@ use std::ops::ControlFlow;
 
 use super::*;
 use crate::{
-    analytic::{AwerbuchBodner, PlateCavity, Plugging, RechtIpson},
+    analytic::{AwerbuchBodner, PlateCavity, Plugging, PowerBalance, RechtIpson},
     case,
     chain::Chain,
     model::Control,
@@ -93,10 +93,11 @@ fn bracketing_agrees_with_every_limit_in_closed_form() {
     };
     let sharp = scenario(OGIVE);
     // Awerbuch and Bodner's model states a root of its own integration in time.
-    let cases: [(&dyn Model, &Scenario, f64); 3] = [
+    let cases: [(&dyn Model, &Scenario, f64); 4] = [
         (&Plugging, &blunt, 1e-6),
         (&AwerbuchBodner, &blunt, 1e-5),
         (&PlateCavity, &sharp, 1e-6),
+        (&PowerBalance, &sharp, 1e-3),
     ];
     for (model, scenario, slack) in cases {
         let found = one(model, scenario, &fine);

@@ -1,0 +1,224 @@
+//! Velocity fields of the plate: their dissipation and inertia, and the parameters that make the dissipation least.
+
+use std::f64::consts::PI;
+
+use super::flow::Flow;
+
+/// Uniaxial over shear flow stress (von Mises).
+const SQRT_3: f64 = 1.732_050_807_568_877_2;
+
+/// Band at the rim of a plug.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Rim {
+    /// Width [m].
+    pub width: f64,
+    /// Shear force over the area of the rim [Pa].
+    pub stress: f64,
+    /// Equivalent plastic strain in the band.
+    pub strain: f64,
+    /// Equivalent strain rate in the band [1/s].
+    pub rate: f64,
+}
+
+/// Slip of the plug against the plate around it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Slip {
+    /// Radius of the plug [m].
+    pub radius: f64,
+    /// Slip [m].
+    pub slip: f64,
+    /// Its rate [m/s].
+    pub rate: f64,
+    /// Width of the band so far [m]: metal that has sheared stays in the band.
+    pub width: f64,
+}
+
+/// Widths that are tried: from the radius down in steps of this ratio.
+const NARROWER: f64 = 0.8;
+/// Narrowest band in radii.
+const NARROWEST: f64 = 1e-7;
+const REFINEMENTS: u32 = 16;
+
+/// The band of the least power between a plug and the plate around it.
+///
+/// The velocity falls linearly over the width w, so that the power per slip rate and rim area is `τ(γ = s/w, γ̇ = ṡ/w) (1 + w/2a)`. Of its
+/// minima, the widest counts: at a narrower one the metal would have softened without the work that this takes.
+pub(super) fn rim(flow: &Flow, slip: &Slip) -> Rim {
+    let at = |width: f64| {
+        let strain = slip.slip / width / SQRT_3;
+        let rate = slip.rate / width / SQRT_3;
+        Rim {
+            width,
+            stress: flow.stress(strain, rate) / SQRT_3 * (1.0 + width / (2.0 * slip.radius)),
+            strain,
+            rate,
+        }
+    };
+    let narrowest = slip.width.max(NARROWEST * slip.radius);
+    let mut best = at(slip.radius.max(narrowest));
+    loop {
+        let next = at((best.width * NARROWER).max(narrowest));
+        if next.stress > best.stress {
+            break;
+        }
+        if next.width <= narrowest {
+            return next;
+        }
+        best = next;
+    }
+    let low = (best.width * NARROWER).max(narrowest);
+    let high = (best.width / NARROWER).min(slip.radius).max(low);
+    let width = least(low.ln(), high.ln(), REFINEMENTS, |x| at(x.exp()).stress).exp();
+    at(width.max(narrowest))
+}
+
+/// Place of the least value of a function between two places that enclose one minimum: golden section.
+pub(super) fn least(
+    mut low: f64,
+    mut high: f64,
+    steps: u32,
+    mut value: impl FnMut(f64) -> f64,
+) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_8;
+    let (mut left, mut right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+    let (mut at_left, mut at_right) = (value(left), value(right));
+    for _ in 0..steps {
+        if at_left < at_right {
+            (high, right, at_right) = (right, left, at_left);
+            left = high - GOLDEN * (high - low);
+            at_left = value(left);
+        } else {
+            (low, left, at_left) = (left, right, at_right);
+            right = low + GOLDEN * (high - low);
+            at_right = value(right);
+        }
+    }
+    if at_left < at_right { left } else { right }
+}
+
+/// Growth of a hole through the plate, whose metal thickens it out to a radius.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Hole {
+    /// Pressure on the wall without inertia [Pa].
+    pub pressure: f64,
+    /// Radius of the moving metal over that of the hole.
+    pub extent: f64,
+    /// Coefficient of the inertial pressure `B ρ ċ²`.
+    pub inertia: f64,
+}
+
+/// Largest radius of moving metal in radii of the hole.
+const WIDEST_HOLE: f64 = 1e3;
+const PANELS: u32 = 12;
+
+/// The field of least power around a hole of a radius [m] that grows at a speed [m/s] in a plate of a thickness [m].
+///
+/// `v_r = ċ c (R² − r²)/(r (R² − c²))` and `v_z = 2 z ċ c/(R² − c²)`: no volume changes, nothing moves inwards from R, where the metal
+/// shears over the thickness. The strain of a ring is that of a hole grown from nothing in plane strain, `−ln(1 − c²/r²)/√3`.
+pub(super) fn hole(flow: &Flow, radius: f64, thickness: f64, growth: f64) -> Hole {
+    let pressure = |extent: f64| {
+        let square = extent * extent;
+        let span = extent.ln() / f64::from(PANELS);
+        let volume: f64 = (0..PANELS)
+            .map(|i| {
+                let place = ((f64::from(i) + 0.5) * span).exp();
+                let part = square / (place * place);
+                let (radial, hoop, axial) = (-(part + 1.0), part - 1.0, 2.0);
+                let sum: f64 = radial * radial + hoop * hoop + axial * axial;
+                let rate = (2.0 / 3.0 * sum).sqrt() / (square - 1.0);
+                let strain = -(-1.0 / (place * place)).ln_1p() / SQRT_3;
+                flow.stress(strain, rate * growth / radius) * rate * place * place * span
+            })
+            .sum();
+        let edge = flow.stress(0.0, growth / radius) / SQRT_3;
+        volume + edge * extent * thickness / (2.0 * radius * (square - 1.0))
+    };
+    let extent = least(1e-3_f64.ln(), WIDEST_HOLE.ln(), 20, |x| {
+        pressure(1.0 + x.exp())
+    });
+    let extent = 1.0 + extent.exp();
+    Hole {
+        pressure: pressure(extent),
+        extent,
+        inertia: hole_inertia(extent),
+    }
+}
+
+/// `½ρ∫v_r² 2πr dr = πρ B c² ċ²` of the field around a hole, whose pressure is then `B ρ ċ²` at a constant speed of growth.
+fn hole_inertia(extent: f64) -> f64 {
+    let square = extent * extent;
+    let gap = square - 1.0;
+    (square * square * extent.ln() - square * gap + (square * square - 1.0) / 4.0) / (gap * gap)
+}
+
+/// Plate around the rim that moves with a velocity falling linearly to zero at a radius b.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Dish {
+    /// Radius of the rim a [m].
+    pub rim: f64,
+    /// Thickness [m].
+    pub thickness: f64,
+    /// Density [kg/m3].
+    pub density: f64,
+    /// Mass inside the rim that moves with it [kg].
+    pub inner_mass: f64,
+}
+
+impl Dish {
+    /// Generalised mass: twice the kinetic energy at unit velocity of the rim [kg].
+    pub fn mass(&self, edge: f64) -> f64 {
+        self.common(edge, edge)
+    }
+
+    /// Product of two fields: `∫ρ h φ₀ φ₁ 2πr dr`, φ = (b − r)/(b − a) [kg].
+    pub fn common(&self, first: f64, second: f64) -> f64 {
+        let (a, b) = (self.rim, first.min(second));
+        let integral = first * second * (b * b - a * a) / 2.0
+            - (first + second) * (b.powi(3) - a.powi(3)) / 3.0
+            + (b.powi(4) - a.powi(4)) / 4.0;
+        self.inner_mass
+            + 2.0 * PI * self.density * self.thickness * integral / ((first - a) * (second - a))
+    }
+
+    /// True momentum at unit velocity of the rim [kg].
+    pub fn momentum(&self, edge: f64) -> f64 {
+        let a = self.rim;
+        let integral =
+            (edge * (edge * edge - a * a) / 2.0 - (edge.powi(3) - a.powi(3)) / 3.0) / (edge - a);
+        self.inner_mass + 2.0 * PI * self.density * self.thickness * integral
+    }
+
+    /// Resistance at a flow stress [Pa] and a deflection of the rim [m]: hinge circles at a and b with the bending of all rings between
+    /// them, `2π M 2b/(b − a)`, and stretching along the radius, `π N δ (b + a)/(b − a)` [N].
+    pub fn resistance(&self, edge: f64, deflection: f64, stress: f64) -> f64 {
+        let plane = 2.0 / SQRT_3 * stress * self.thickness;
+        let moment = plane * self.thickness / 4.0;
+        let gap = edge - self.rim;
+        (4.0 * PI * moment * edge + PI * plane * deflection.abs() * (edge + self.rim)) / gap
+    }
+
+    /// Equivalent strain of a dish of this deflection, and its rate at a velocity of the rim [1/s].
+    pub fn strain(&self, edge: f64, deflection: f64, velocity: f64) -> (f64, f64) {
+        let gap = edge - self.rim;
+        let (slope, turn) = (deflection.abs() / gap, velocity.abs() / gap);
+        let bent = self.thickness / (2.0 * gap);
+        (slope * bent + slope * slope / 2.0, turn * (bent + slope))
+    }
+}
+
+/// Field under a flat punch on a half-space: `ψ = F(r) G(z)`, `v_z = F′G/r`, `v_r = −F G′/r`, with `F = r²/2` under the punch,
+/// `F = (a²/2)((R² − r²)/(R² − a²))^p` around it and `G = V (1 − z/H)^q`.
+pub(super) mod punch {
+    /// Depth H of the field in radii.
+    pub const DEPTH: f64 = 0.86;
+    /// Radius R of the field in radii.
+    #[cfg(test)]
+    pub const EXTENT: f64 = 2.31;
+    /// Exponents p and q.
+    #[cfg(test)]
+    pub const EXPONENTS: (f64, f64) = (4.75, 2.9);
+    /// Mean pressure over flow stress: the least value over H, R, p and q.
+    pub const PRESSURE: f64 = 3.19;
+    /// Mean equivalent strain rate, weighted with itself, times radius over velocity.
+    pub const RATE: f64 = 1.98;
+}

@@ -1,0 +1,114 @@
+//! Forces of the local field under the nose and of the rim of a plug.
+
+use std::f64::consts::PI;
+
+use super::{
+    fields::{Rim, Slip, hole, punch, rim},
+    motion::{Impact, MotionState},
+};
+use crate::{analytic::nose_shape::radius, material::DamageState, regime::nose_factor};
+
+/// Slip in thicknesses that a rim at rest is given.
+const LEAST_SLIP: f64 = 1e-6;
+
+/// Forces that the local field and the rim transmit.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Forces {
+    /// Plastic force of the local field [N].
+    pub local: f64,
+    /// Its inertial force [N].
+    pub inertial: f64,
+    /// Force at the rim [N].
+    pub rim: f64,
+}
+
+impl Impact {
+    /// Forces in the middle of a step, and the band of the plug.
+    pub fn forces(&self, now: &MotionState, duration: f64, next: &mut MotionState) -> Forces {
+        let [projectile, plug, dish] = now.velocities;
+        if self.flat() {
+            let relative = (projectile - plug).max(0.0);
+            let (local, inertial) = self.punch(now.sunk, relative);
+            let slip_rate = (plug - dish).max(0.0);
+            let slip = now.slip + 0.5 * duration * slip_rate;
+            next.rim = self.band(now, slip, slip_rate);
+            self.damage_band(now, next);
+            let height = self.thickness - slip - now.sunk - 0.5 * duration * relative;
+            let whole = next.damage < 1.0;
+            let rim = PI * self.diameter * height.max(0.0) * next.rim.stress;
+            Forces {
+                local,
+                inertial,
+                rim: if whole { rim } else { 0.0 },
+            }
+        } else {
+            let relative = (projectile - dish).max(0.0);
+            let (local, inertial) = self.opening(now.sunk + 0.5 * duration * relative, relative);
+            Forces {
+                local,
+                inertial,
+                rim: 0.0,
+            }
+        }
+    }
+
+    /// The band at the rim; a failed one stays as it was.
+    fn band(&self, now: &MotionState, slip: f64, slip_rate: f64) -> Rim {
+        if now.damage >= 1.0 {
+            return now.rim;
+        }
+        let slip = Slip {
+            radius: self.radius(),
+            // A rim at rest has the band of the least slip.
+            slip: slip.max(LEAST_SLIP * self.thickness),
+            rate: slip_rate,
+            width: now.rim.width,
+        };
+        rim(&self.flow, &slip)
+    }
+
+    /// Damage of the band by the record's law at no mean stress; it has failed where its metal has become weaker by heat than it was.
+    fn damage_band(&self, now: &MotionState, next: &mut MotionState) {
+        let strain = next.rim.strain;
+        if self.flow.peak_strain.is_some_and(|peak| strain > peak) {
+            next.damage = 1.0;
+        } else if let Some(law) = &self.damage {
+            let state = DamageState {
+                triaxiality: 0.0,
+                strain_rate: next.rim.rate,
+                temperature: self.flow.temperature(strain),
+            };
+            next.damage = law.grow(0.0, &state, strain).max(now.damage);
+        }
+    }
+
+    /// Plastic and inertial force on a flat face [N] that sinks at a relative speed [m/s].
+    fn punch(&self, sunk: f64, relative: f64) -> (f64, f64) {
+        if !self.indentation {
+            return (f64::INFINITY, 0.0);
+        }
+        let radius = self.radius();
+        let strain = punch::RATE * (sunk / radius).min(punch::DEPTH);
+        let rate = punch::RATE * relative / radius;
+        let pressure = punch::PRESSURE * self.flow.stress(strain, rate);
+        let slow = pressure.min(self.cavity_pressures[0]);
+        let inertial = 0.5 * self.density * relative * relative;
+        (slow * self.area(), inertial * self.area())
+    }
+
+    /// Plastic and inertial force on a pointed or round nose [N].
+    pub fn opening(&self, sunk: f64, relative: f64) -> (f64, f64) {
+        let at = |behind: f64| radius(self.nose, self.diameter, behind);
+        let (front, back) = (at(sunk), at(sunk - self.thickness));
+        let contact = PI * (front * front - back * back);
+        if contact <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let factor = nose_factor(self.nose);
+        let growth = relative * factor.sqrt();
+        let hole = hole(&self.flow, front, self.thickness, growth);
+        let pressure = hole.pressure.min(self.cavity_pressures[1]);
+        let inertial = hole.inertia * self.density * growth * growth;
+        (pressure * contact, inertial * contact)
+    }
+}

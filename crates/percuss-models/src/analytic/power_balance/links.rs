@@ -1,0 +1,148 @@
+//! One time step of bodies in a row that push each other through rigid-plastic links.
+
+/// Bodies at most: projectile, plug and dish.
+pub(super) const BODIES: usize = 3;
+
+/// A body in a row, and the link to the next one or, of the last, to the plate at rest.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Body {
+    /// Mass [kg].
+    pub mass: f64,
+    /// Velocity before the step [m/s].
+    pub velocity: f64,
+    /// Impulse at which the link yields when this body is faster than the next [N s].
+    pub largest: f64,
+    /// Impulse when it is slower: 0 for bodies that part, else the negative of the largest [N s].
+    pub least: f64,
+}
+
+/// Velocities after a step [m/s] and impulses of the links [N s].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Step {
+    pub velocities: [f64; BODIES],
+    pub impulses: [f64; BODIES],
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Link {
+    Yields,
+    Holds,
+    Parts,
+}
+
+const STATES: [Link; 3] = [Link::Yields, Link::Holds, Link::Parts];
+/// Differences of velocity and impulse that count as none, as a part of the largest.
+const NOTHING: f64 = 1e-12;
+
+/// The step that minimises `Σ ½m(v′ − v)² + Σ J(v′ᵢ − v′ᵢ₊₁)`: Newton's law, with impulses that yielding links bound.
+///
+/// The function is convex, so of the few ways in which links can yield or hold exactly one fits.
+pub(super) fn step(bodies: &[Body]) -> Step {
+    let count = bodies.len();
+    let scale = bodies
+        .iter()
+        .fold(0.0_f64, |most, body| most.max(body.velocity.abs()));
+    let mut best = (f64::INFINITY, Step::default());
+    for choice in 0..3_usize.pow(count as u32) {
+        let mut links = [Link::Yields; BODIES];
+        let mut rest = choice;
+        for link in links.iter_mut().take(count) {
+            *link = STATES[rest % 3];
+            rest /= 3;
+        }
+        let known = |i: usize| match links[i] {
+            Link::Yields => bodies[i].largest,
+            Link::Holds => 0.0,
+            Link::Parts => bodies[i].least,
+        };
+        if (0..count).any(|i| !known(i).is_finite()) {
+            continue;
+        }
+        let tried = velocities(bodies, &links, known);
+        let excess = misfit(bodies, &links, &tried, scale);
+        if excess <= NOTHING {
+            return tried;
+        }
+        if excess < best.0 {
+            best = (excess, tried);
+        }
+    }
+    best.1
+}
+
+/// Velocities of bodies whose links yield or hold in a given way; held ones move as one.
+fn velocities(bodies: &[Body], links: &[Link; BODIES], known: impl Fn(usize) -> f64) -> Step {
+    let mut step = Step::default();
+    let count = bodies.len();
+    let mut first = 0;
+    while first < count {
+        let mut last = first;
+        while last + 1 < count && links[last] == Link::Holds {
+            last += 1;
+        }
+        let pushed = if first == 0 { 0.0 } else { known(first - 1) };
+        let (mut mass, mut momentum) = (0.0, pushed - known(last));
+        for body in &bodies[first..=last] {
+            mass += body.mass;
+            momentum += body.mass * body.velocity;
+        }
+        let fixed = last + 1 == count && links[last] == Link::Holds;
+        let velocity = if fixed { 0.0 } else { momentum / mass };
+        for common in &mut step.velocities[first..=last] {
+            *common = velocity;
+        }
+        first = last + 1;
+    }
+    let mut impulse = 0.0;
+    for (i, body) in bodies.iter().enumerate() {
+        impulse += body.mass * (body.velocity - step.velocities[i]);
+        step.impulses[i] = impulse;
+    }
+    step
+}
+
+/// How far a step is from what its links allow, as a part of the velocities and impulses in play.
+fn misfit(bodies: &[Body], links: &[Link; BODIES], step: &Step, scale: f64) -> f64 {
+    let total: f64 = bodies.iter().map(|body| body.mass).sum();
+    (0..bodies.len()).fold(0.0_f64, |worst, i| {
+        let next = if i + 1 < bodies.len() {
+            step.velocities[i + 1]
+        } else {
+            0.0
+        };
+        let relative = step.velocities[i] - next;
+        let excess = match links[i] {
+            Link::Yields => -relative / scale,
+            Link::Parts => relative / scale,
+            Link::Holds => {
+                let impulse = step.impulses[i];
+                let over = (impulse - bodies[i].largest).max(bodies[i].least - impulse);
+                over / (total * scale)
+            }
+        };
+        worst.max(if excess.is_nan() { 0.0 } else { excess })
+    })
+}
+
+/// The function that [`step`] makes least [J], up to a constant.
+pub(super) fn potential(bodies: &[Body], step: &Step) -> f64 {
+    (0..bodies.len())
+        .map(|i| {
+            let next = if i + 1 < bodies.len() {
+                step.velocities[i + 1]
+            } else {
+                0.0
+            };
+            let relative = step.velocities[i] - next;
+            let change = step.velocities[i] - bodies[i].velocity;
+            let link = match relative {
+                faster if faster > 0.0 && bodies[i].largest.is_finite() => {
+                    bodies[i].largest * faster
+                }
+                slower if slower < 0.0 => bodies[i].least * slower,
+                _ => 0.0,
+            };
+            0.5 * bodies[i].mass * change * change + link
+        })
+        .sum()
+}

@@ -1,0 +1,197 @@
+//! Model `power_balance`: perforation of plates by an upper bound of the power, with the fields' parameters minimised at each step.
+
+mod fields;
+mod flow;
+mod forces;
+mod history;
+mod links;
+mod motion;
+#[cfg(test)]
+mod tests;
+
+use self::{
+    flow::Flow,
+    motion::{Impact, Perforation},
+};
+use super::plate_impact::{PlateImpact, plate_result, refuse, taken_as_rigid};
+use crate::{
+    Error, Refusal, Scenario,
+    material::{cavity_expansion_pressure, cylindrical_cavity_pressure, tensile_strength},
+    outcome::{BandQuantity, Detail, Outcome, RunResult, Termination},
+    problem::Nose,
+    regime::{ProjectileRegime, TargetKind},
+    solver::{Control, Model},
+    validity::{FittedTo, Measure, NoseKind, Outside, Range, ValidityDomain},
+};
+
+/// Perforation by a balance of power over velocity fields.
+#[derive(Debug, Clone, Copy)]
+pub struct PowerBalance;
+
+/// Ranges of thickness for which the fields are made.
+const RANGES: &[Range] = &[
+    Range {
+        measure: Measure::ThicknessToDiameter,
+        min: 0.05,
+        max: 3.0,
+        outside: Outside::NotApplicable,
+        because: "a thinner plate tears as a membrane; in a thicker one the projectile does not feel both faces",
+    },
+    Range {
+        measure: Measure::ThicknessToDiameter,
+        min: 0.2,
+        max: 2.0,
+        outside: Outside::Warning,
+        because: "the fields are those of plates between a membrane and a thick body",
+    },
+];
+
+/// Deflection in thicknesses below which a plate counts as flat.
+const NO_BULGE: f64 = 1e-3;
+
+fn impact(scenario: &Scenario, case: &PlateImpact<'_>) -> Option<Impact> {
+    let options = &scenario.options.power_balance;
+    let plate = case.plate;
+    Some(Impact {
+        mass: case.mass,
+        diameter: case.diameter,
+        nose: scenario.projectile.nose,
+        thickness: case.thickness,
+        density: plate.density.si(),
+        flow: Flow::new(plate, options, order_of_limit(case)? / case.diameter),
+        damage: plate.damage.as_ref().map(|damage| damage.prepare(plate)),
+        cavity_pressures: [
+            cavity_expansion_pressure(plate)?,
+            cylindrical_cavity_pressure(plate)?,
+        ],
+        indentation: options.indentation(),
+        bulging: options.bulging(),
+    })
+}
+
+/// A speed of the order of the ballistic limit [m/s]: that of the work of the plate's strength over the hole; `None` for a plate that never flows.
+fn order_of_limit(case: &PlateImpact<'_>) -> Option<f64> {
+    let work = tensile_strength(case.plate)? * case.area() * case.thickness;
+    Some((2.0 * work / case.mass).sqrt())
+}
+
+impl Model for PowerBalance {
+    fn name(&self) -> &'static str {
+        "power_balance"
+    }
+
+    fn summary(&self) -> &'static str {
+        "perforation of plates by rigid projectiles of any nose: sinking in, dishing, slip of a plug, by least power in each step"
+    }
+
+    fn validity(&self) -> &'static ValidityDomain {
+        const {
+            &ValidityDomain {
+                predicts: &[BandQuantity::BallisticLimit, BandQuantity::ResidualVelocity],
+                projectile: &[ProjectileRegime::Rigid, ProjectileRegime::Deforming],
+                targets: TargetKind::PLATES,
+                noses: NoseKind::ALL,
+                ranges: RANGES,
+                fitted_to: &[FittedTo {
+                    sources: &["borvik2002a"],
+                    because: "the rule that the band of a plug keeps its width was found on this limit; no number was fitted",
+                }],
+                notes: &[
+                    "normal impact; the plate has no edge, and its elasticity is left out",
+                    "a pointed or round nose opens a hole; it neither tears petals nor shears a plug",
+                ],
+                ..ValidityDomain::OPEN
+            }
+        }
+    }
+
+    fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
+        let case = PlateImpact::of(scenario)?;
+        tensile_strength(case.plate).is_none().then(|| {
+            Refusal::new("the plate's strength law never flows")
+                .with_remedy("give the plate a strength law that flows")
+        })
+    }
+
+    fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
+        let built =
+            PlateImpact::of(scenario).and_then(|case| Some((impact(scenario, &case)?, case)));
+        let Some((impact, case)) = built else {
+            let reason = "it takes one plate of a metal that flows";
+            return Err(refuse(self.name(), reason));
+        };
+        let limit = impact.ballistic_limit(order_of_limit(&case).unwrap_or(case.speed));
+        let mut result = plate_result(self.name(), "least power", case.speed, limit, 0.0);
+        if case.speed > 0.0 {
+            let run = impact.case(case.speed, control.record);
+            describe(&mut result, &impact, &run);
+            if control.record {
+                result.history = Some(history::of(
+                    &impact,
+                    &run,
+                    case.speed,
+                    scenario.projectile.length,
+                ));
+            }
+        } else {
+            result.depth_of_penetration = Some(0.0);
+        }
+        result.warnings.extend(taken_as_rigid(scenario));
+        Ok(result)
+    }
+}
+
+/// Writes what a run found into the result.
+fn describe(result: &mut RunResult, impact: &Impact, run: &Perforation) {
+    let last = &run.last;
+    (result.outcome, result.termination) = match run.perforated {
+        true => (Outcome::Perforated, Termination::LeftTarget),
+        false => (Outcome::AtRest, Termination::PenetrationStopped),
+    };
+    result.residual_velocity = Some(if run.perforated {
+        last.velocities[0]
+    } else {
+        0.0
+    });
+    result.peak_force = Some(run.peak_force);
+    result.end_time = Some(last.time);
+    let detail = |name, unit, value| Detail { name, unit, value };
+    let bulge = if impact.bulging { last.deflection } else { 0.0 };
+    result.details = vec![
+        detail("sunk into the plate", "mm", last.sunk * 1e3),
+        detail("deflection of the plate at the rim", "mm", bulge * 1e3),
+    ];
+    if bulge > NO_BULGE * impact.thickness {
+        result
+            .details
+            .push(detail("radius of the bulge", "mm", last.edge * 1e3));
+    }
+    if impact.nose == Nose::Flat {
+        result.details.extend([
+            detail("mass of the plug", "g", impact.plug_mass(last) * 1e3),
+            detail("slip of the plug", "mm", last.slip * 1e3),
+            detail("width of the band at the rim", "mm", last.rim.width * 1e3),
+            detail("work at the rim", "J", last.rim_work),
+        ]);
+    }
+    result.details.extend([
+        detail("work of the local field", "J", last.local_work),
+        detail("work of bending and stretching", "J", last.dish_work),
+        detail("energy of displaced metal", "J", last.displaced),
+        detail("energy lost to capture", "J", last.capture),
+    ]);
+    let names = ["plate bulges from", "plug slips from", "band fails at"];
+    for (name, time) in names.into_iter().zip(run.stages) {
+        if let Some(time) = time {
+            result.details.push(detail(name, "us", time * 1e6));
+        }
+    }
+    if run.perforated {
+        result
+            .details
+            .push(detail("contact time", "us", last.time * 1e6));
+    } else {
+        result.depth_of_penetration = Some(last.sunk + last.slip + bulge);
+        result.time_to_rest = Some(last.time);
+    }
+}

@@ -1,0 +1,299 @@
+use std::f64::consts::PI;
+
+use super::{
+    fields::{Dish, Slip, hole, punch, rim},
+    flow::Flow,
+    history, impact,
+    links::{Body, step},
+    motion::Impact,
+};
+use crate::{analytic::plate_impact::PlateImpact, case};
+
+const PERFECT: &str = "perfectly_plastic = { flow_stress = '400 MPa' }";
+const POWER: &str = "power_law = { coefficient = '400 MPa', exponent = 0.2 }";
+const JOHNSON: &str = "johnson_cook = { a = '300 MPa', b = '400 MPa', n = 0.4, c = 0.01, m = 1.0, reference_rate = '1 1/s' }";
+const NOSES: [&str; 4] = [
+    "'flat'",
+    "'hemisphere'",
+    "{ cone = { length_to_diameter = 1.0 } }",
+    "{ ogive = { crh = 3.0 } }",
+];
+
+/// 197 g, 20 mm against a plate of this thickness [mm].
+fn of(strength: &str, nose: &str, thickness: f64, options: &str) -> Impact {
+    let text = format!(
+        "projectile = {{ material = 'rigid', mass = '197 g', diameter = '20 mm', nose = {nose}, impact_velocity = '300 m/s' }}
+        target = {{ material = 'plate', thickness = '{thickness} mm', back_face = 'free' }}
+        materials.rigid = {{ name = 'rigid', density = '7850 kg/m3', youngs_modulus = '210 GPa', poissons_ratio = 0.3, strength.elastic = {{}} }}
+        materials.plate = {{ name = 'plate', density = '7850 kg/m3', youngs_modulus = '200 GPa', poissons_ratio = 0.3, specific_heat = '450 J/(kg K)', melting_temperature = '1800 K', strength = {{ {strength} }} }}
+        {options}"
+    );
+    let scenario = case::load_str("plate", &text).unwrap_or_else(|error| panic!("{error}"));
+    let plate = PlateImpact::of(&scenario).unwrap();
+    impact(&scenario, &plate).unwrap()
+}
+
+fn flow(strength: &str) -> Flow {
+    of(strength, NOSES[0], 12.0, "").flow
+}
+
+/// Power of the field under a punch over π a² V Y, by its strain rates on a fine mesh, and its mean strain rate.
+fn punch_power(depth: f64, extent: f64, (p, q): (f64, f64)) -> (f64, f64) {
+    let panels = 120;
+    let (mut sum, mut square) = (0.0, 0.0);
+    let gap = extent * extent - 1.0;
+    for (low, high) in [(0.0, 1.0), (1.0, extent)] {
+        for i in 0..panels {
+            let r = low + (high - low) * (f64::from(i) + 0.5) / f64::from(panels);
+            let u = (extent * extent - r * r) / gap;
+            let slope = -2.0 * r / gap;
+            let (f, f1, f2) = match r < 1.0 {
+                true => (r * r / 2.0, r, 1.0),
+                false => (
+                    0.5 * u.powf(p),
+                    0.5 * p * u.powf(p - 1.0) * slope,
+                    0.5 * p
+                        * ((p - 1.0) * u.powf(p - 2.0) * slope * slope
+                            - 2.0 * u.powf(p - 1.0) / gap),
+                ),
+            };
+            for j in 0..panels {
+                let s = 1.0 - (f64::from(j) + 0.5) / f64::from(panels);
+                let g = s.powf(q);
+                let g1 = -q * s.powf(q - 1.0) / depth;
+                let g2 = q * (q - 1.0) * s.powf(q - 2.0) / (depth * depth);
+                let (radial, hoop, axial) =
+                    (-g1 * (f1 / r - f / (r * r)), -f * g1 / (r * r), f1 * g1 / r);
+                assert!((radial + hoop + axial).abs() < 1e-9, "volume is kept");
+                let shear = -f * g2 / r + g * (f2 / r - f1 / (r * r));
+                let direct = radial * radial + hoop * hoop + axial * axial;
+                let rate = (2.0 / 3.0 * direct + shear * shear / 3.0).sqrt();
+                let ring = 2.0 * PI * r * (high - low) * depth / f64::from(panels * panels);
+                sum += rate * ring;
+                square += rate * rate * ring;
+            }
+        }
+    }
+    // Under the edge of the punch metal sinks inside and rises outside.
+    let edge = 2.0 * PI * (1.0 + p / gap) * depth / (q + 1.0) / 3.0_f64.sqrt();
+    ((sum + edge) / PI, square / sum)
+}
+
+/// The exact mean pressure on a smooth circular punch is 2.845 Y for Tresca's yield condition, which lies within that of von Mises.
+#[test]
+fn the_field_under_a_punch_is_an_upper_bound_and_the_least_of_its_kind() {
+    let (pressure, rate) = punch_power(punch::DEPTH, punch::EXTENT, punch::EXPONENTS);
+    assert!(
+        (pressure / punch::PRESSURE - 1.0).abs() < 2e-3,
+        "{pressure}"
+    );
+    assert!((rate / punch::RATE - 1.0).abs() < 0.02, "{rate}");
+    const { assert!(punch::PRESSURE >= 2.845 && punch::PRESSURE < 1.13 * 2.845) };
+    let (p, q) = punch::EXPONENTS;
+    for other in [
+        punch_power(0.8 * punch::DEPTH, punch::EXTENT, (p, q)),
+        punch_power(1.2 * punch::DEPTH, punch::EXTENT, (p, q)),
+        punch_power(punch::DEPTH, 0.9 * punch::EXTENT, (p, q)),
+        punch_power(punch::DEPTH, 1.1 * punch::EXTENT, (p, q)),
+        punch_power(punch::DEPTH, punch::EXTENT, (0.8 * p, q)),
+        punch_power(punch::DEPTH, punch::EXTENT, (1.2 * p, q)),
+        punch_power(punch::DEPTH, punch::EXTENT, (p, 0.8 * q)),
+        punch_power(punch::DEPTH, punch::EXTENT, (p, 1.2 * q)),
+    ] {
+        assert!(other.0 > pressure, "{other:?}");
+    }
+}
+
+/// With one stress and a face that does not sink, `V_r = m/(m + m_p) √(V² − V_bl²)` with the work `τ π D h²/2`.
+#[test]
+fn a_plug_of_constant_shear_has_the_residual_velocity_of_recht_and_ipson() {
+    for thickness in [2.0, 12.0, 20.0] {
+        let impact = of(
+            PERFECT,
+            NOSES[0],
+            thickness,
+            "power_balance = { indentation = false, bulging = false }",
+        );
+        let height = impact.thickness;
+        let shear = 400e6 / 3.0_f64.sqrt();
+        let work = shear * PI * 0.02 * height * height / 2.0;
+        let plug = 7850.0 * PI * 1e-4 * height;
+        let limit = (2.0 * work * (0.197 + plug)).sqrt() / 0.197;
+        let found = impact.ballistic_limit(limit);
+        assert!(
+            (found / limit - 1.0).abs() < 1e-4,
+            "{thickness} {found} {limit}"
+        );
+        for speed in [1.2 * limit, 2.0 * limit, 5.0 * limit] {
+            let run = impact.case(speed, false);
+            let exact = 0.197 / (0.197 + plug) * (speed * speed - limit * limit).sqrt();
+            let residual = run.last.velocities[0];
+            assert!(
+                (residual / exact - 1.0).abs() < 1e-4,
+                "{thickness} {residual} {exact}"
+            );
+            assert!((run.last.rim_work / work - 1.0).abs() < 1e-4);
+            let capture = 0.5 * 0.197 * speed * speed * plug / (0.197 + plug);
+            assert!((run.last.capture / capture - 1.0).abs() < 1e-4);
+        }
+    }
+}
+
+#[test]
+fn energy_and_momentum_close_at_every_moment() {
+    for strength in [PERFECT, POWER, JOHNSON] {
+        for nose in NOSES {
+            for (thickness, speed) in [(4.0, 100.0), (12.0, 60.0), (12.0, 300.0), (40.0, 500.0)] {
+                let impact = of(strength, nose, thickness, "");
+                let run = impact.case(speed, true);
+                for moment in &run.moments {
+                    let energy = history::energy(&impact, moment, speed).residual();
+                    let momentum = history::momentum(&impact, moment, speed).residual();
+                    assert!(
+                        energy.abs() < 1e-9,
+                        "{strength} {nose} {thickness} {moment:?} {energy}"
+                    );
+                    assert!(
+                        momentum.abs() < 1e-9,
+                        "{strength} {nose} {thickness} {momentum}"
+                    );
+                }
+                let work = [
+                    run.last.local_work,
+                    run.last.dish_work,
+                    run.last.rim_work,
+                    run.last.capture,
+                ];
+                let initial = 0.5 * impact.mass * speed * speed;
+                assert!(
+                    work.iter().all(|work| *work > -1e-6 * initial),
+                    "{nose} {work:?}"
+                );
+            }
+        }
+    }
+}
+
+/// A rigid-plastic plate pushes a flat face with the pressure of the punch at most, beside inertia.
+#[test]
+fn the_force_on_a_flat_face_is_that_of_the_punch_at_most() {
+    for thickness in [6.0, 20.0, 40.0] {
+        let impact = of(PERFECT, NOSES[0], thickness, "");
+        let run = impact.case(400.0, false);
+        let most = punch::PRESSURE * 400e6 + 0.5 * 7850.0 * 400.0 * 400.0;
+        let force = run.peak_force / impact.area();
+        assert!(
+            force <= most * (1.0 + 1e-6) && force > 0.9 * most,
+            "{force} {most}"
+        );
+    }
+}
+
+/// In a power law the least power is at `w = 2 a n/(1 − n)`, whatever the slip.
+#[test]
+fn the_band_of_a_power_law_has_the_width_of_its_exponent() {
+    let flow = flow(POWER);
+    for slip in [0.02, 0.05] {
+        let band = rim(
+            &flow,
+            &Slip {
+                radius: 0.01,
+                slip,
+                rate: 100.0,
+                width: 0.0,
+            },
+        );
+        let exact = 2.0 * 0.01 * 0.2 / 0.8;
+        assert!((band.width / exact - 1.0).abs() < 5e-3, "{band:?} {exact}");
+    }
+    let flow = self::flow(PERFECT);
+    let band = rim(
+        &flow,
+        &Slip {
+            radius: 0.01,
+            slip: 1e-3,
+            rate: 100.0,
+            width: 0.0,
+        },
+    );
+    assert!((band.stress * 3.0_f64.sqrt() / 400e6 - 1.0).abs() < 1e-6);
+    assert!(flow.peak_strain.is_none() && self::flow(JOHNSON).peak_strain.is_some());
+}
+
+/// Thicker plates resist the opening of a hole more, up to the pressure of a cavity, which a thick plate has exactly.
+#[test]
+fn a_hole_in_a_thick_plate_has_the_pressure_of_a_cavity() {
+    let flow = flow(PERFECT);
+    let mut before = 0.0;
+    for thickness in [0.001, 0.01, 0.1, 1.0, 10.0] {
+        let hole = hole(&flow, 0.01, thickness, 10.0);
+        assert!(hole.pressure > before && hole.extent > 1.0, "{hole:?}");
+        before = hole.pressure;
+    }
+    let thick = of(PERFECT, NOSES[1], 5000.0, "");
+    let (force, _) = thick.opening(1.0, 0.0);
+    let exact = thick.cavity_pressures[1] * PI * 1e-4;
+    assert!((force / exact - 1.0).abs() < 1e-12, "{force} {exact}");
+    // Of an unbounded field, ln(R/c) − 3/4.
+    let wide = hole(&flow, 1e-5, 10.0, 0.0);
+    assert!(
+        (wide.inertia - (wide.extent.ln() - 0.75)).abs() < 1e-4 * wide.inertia,
+        "{wide:?}"
+    );
+}
+
+#[test]
+fn the_dish_has_the_mass_of_its_field_and_the_load_of_its_hinges() {
+    let dish = Dish {
+        rim: 0.01,
+        thickness: 0.01,
+        density: 7850.0,
+        inner_mass: 0.0,
+    };
+    let (edge, other, panels) = (0.035, 0.05, 20_000);
+    let field = |r: f64, b: f64| ((b - r) / (b - 0.01)).max(0.0);
+    let (mut own, mut both, mut momentum) = (0.0, 0.0, 0.0);
+    for i in 0..panels {
+        let r = 0.01 + (edge - 0.01) * (f64::from(i) + 0.5) / f64::from(panels);
+        let ring = 2.0 * PI * r * 7850.0 * 0.01 * (edge - 0.01) / f64::from(panels);
+        own += ring * field(r, edge).powi(2);
+        both += ring * field(r, edge) * field(r, other);
+        momentum += ring * field(r, edge);
+    }
+    assert!((dish.mass(edge) / own - 1.0).abs() < 1e-6);
+    assert!((dish.common(edge, other) / both - 1.0).abs() < 1e-6);
+    assert!((dish.momentum(edge) / momentum - 1.0).abs() < 1e-6);
+    // A flat plate far from its support carries 4 π M, as yield lines have it.
+    let moment = 2.0 / 3.0_f64.sqrt() * 400e6 * 0.01 * 0.01 / 4.0;
+    let load = dish.resistance(1e4, 0.0, 400e6);
+    assert!((load / (4.0 * PI * moment) - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn bodies_in_a_row_hold_until_their_links_yield() {
+    let body = |mass, velocity, largest: f64| Body {
+        mass,
+        velocity,
+        largest,
+        least: -largest,
+    };
+    // Strong links: one body that loses what the last link takes.
+    let held = step(&[body(2.0, 10.0, 1e9), body(1.0, 0.0, 3.0)]);
+    assert!(
+        held.velocities[..2]
+            .iter()
+            .all(|v| (v - 17.0 / 3.0).abs() < 1e-12)
+    );
+    // A weak first link yields, and the second body stays where it is.
+    let weak = step(&[body(2.0, 10.0, 1.0), body(1.0, 0.0, 3.0)]);
+    assert_eq!((weak.velocities[0], weak.velocities[1]), (9.5, 0.0));
+    // A slower body behind is parted from, not pulled.
+    let parted = step(&[
+        Body {
+            least: 0.0,
+            ..body(2.0, 1.0, 1.0)
+        },
+        body(1.0, 5.0, 0.5),
+    ]);
+    assert_eq!((parted.velocities[0], parted.velocities[1]), (1.0, 4.5));
+}
