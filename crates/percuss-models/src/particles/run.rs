@@ -29,7 +29,7 @@ use crate::{
 
 /// Steps between two checks of the balances.
 const INTERVAL: u64 = 50;
-/// Largest stretch of a bond: beyond it no brittle solid is whole, and the model has no fracture yet.
+/// Largest stretch of a bond that holds: beyond it no brittle solid is whole.
 const LARGEST_STRETCH: f64 = 0.1;
 /// Round trips of a wave through the lattice, or from its middle to its side, without contact after which the bodies have parted.
 const PARTED_AFTER: f64 = 2.0;
@@ -112,7 +112,8 @@ fn survey_row(body: &Body, row: usize) -> (f64, f64) {
         let tension = fields::largest_tension(fields::stress(body, row, place));
         extremes.1 = extremes.1.max(tension);
         for kind in 0..3 {
-            if body.rows[row].weights[kind][place] > 0.0 {
+            let holds = body.softening.is_none() || !body.is_broken((row, place, kind));
+            if body.rows[row].weights[kind][place] > 0.0 && holds {
                 let stretch = body.bond_of(row, place, kind).elongation.abs();
                 extremes.0 = extremes.0.max(stretch / body.lattice.spacing);
             }
@@ -142,7 +143,10 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
             Rigid::Projectile(shape) => rod.material.density.si() * shape.area(rod.length),
         };
         // A particle of the surface has half the mass of one inside, and a spring of the contact beside its bonds.
-        let frequency = body.lattice.largest_frequency();
+        let frequency = match body.rows[0].is_moved() {
+            true => body.measured_frequency(),
+            false => body.lattice.largest_frequency(),
+        };
         let of_contact =
             (frequency * frequency + 2.0 * stiffness(&body) / body.lattice.mass).sqrt();
         let mut impact = Self {
@@ -225,6 +229,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         let elastic = sums.elastic + self.contact.energy;
         let mut energy = EnergyLedger::default();
         energy.initial = self.initial.0;
+        energy.fracture = sums.fracture;
         match self.rigid {
             Rigid::Wall => {
                 energy.kinetic_projectile = sums.kinetic;
@@ -267,7 +272,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         }
         Err(self.clock().failure(
             format!(
-                "a bond is stretched or shortened by {:.0} % of its length: the solid would break, and the model has no fracture yet,",
+                "a bond is stretched or shortened by {:.0} % of its length: the solid would break, and the bonds of this run do not,",
                 100.0 * self.state.largest_stretch
             ),
             "lower `projectile.impact_velocity`, blunt the nose, or use another model".to_owned(),
@@ -317,7 +322,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
     }
 
     fn fields(&self) -> Fields<'_> {
-        let lattice = Cow::Owned(fields::half(&self.body));
+        let lattice = Cow::Owned(fields::whole(&self.body));
         let bodies = match self.rigid {
             Rigid::Wall => vec![lattice],
             Rigid::Projectile(shape) => {

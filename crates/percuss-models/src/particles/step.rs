@@ -4,13 +4,19 @@ use rayon::prelude::*;
 
 use super::{
     body::{Body, RowMake, RowMotion, RowState},
-    bonds::{BondForce, Forces, Pose, RowForces, Springs, bond, offset},
+    bonds::{BondForce, Forces, Pair, Pose, Rest, RowForces, Springs, bond, offset},
     lattice::DIRECTIONS,
 };
+use crate::random::unit;
 
 /// Rows that one task takes at least, and particles below which one task takes all.
 const LEAST_ROWS: usize = 8;
 const SMALL: usize = 4096;
+
+/// Rounds of the search for the largest frequency, what they may leave, and the random numbers that it starts from.
+const FREQUENCY_ROUNDS: usize = 30;
+const FREQUENCY_MARGIN: f64 = 1.05;
+const FREQUENCY_STREAM: u64 = 0xf1e1d;
 
 /// Force of a contact on a particle [N per m].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,8 +30,8 @@ impl Forces {
     /// Sum of what the bonds of a row and of the row above it do.
     #[inline(always)]
     fn sum(&mut self, odd: usize, own: &RowForces, above: &RowForces) {
-        let [along, right, left] = &own.0;
-        let [_, from_left, from_right] = &above.0;
+        let [along, right, left] = &own.of;
+        let [_, from_left, from_right] = &above.of;
         let count = self.x.len() - 2;
         // The row above has the other parity: its bonds to the right start `1 − odd` places before, those to the left one place later.
         let (first, second) = (odd, odd + 1);
@@ -90,6 +96,10 @@ impl pulp::NullaryFnOnce for Slice<'_> {
                 state,
                 motion,
             );
+            if body.softening.is_some() {
+                // What was the row's own is what is above the next one.
+                std::mem::swap(&mut state.worst, &mut forces.above.worst);
+            }
         }
         support
     }
@@ -105,13 +115,13 @@ struct Sweep {
 impl Sweep {
     #[inline(always)]
     fn new(body: &Body, springs: &Springs, first: usize) -> Self {
-        let mut above = RowForces::new(body.stride);
+        let mut above = RowForces::new(body.stride, body.softening.is_some());
         if first > 0 {
             body.row_forces(springs, first - 1, &mut above);
         }
         Self {
             above,
-            own: RowForces::new(body.stride),
+            own: RowForces::new(body.stride, body.softening.is_some()),
             total: Forces::new(body.stride),
         }
     }
@@ -150,7 +160,15 @@ impl Body {
         let own = &self.state[row];
         // The last row has no bonds to a next one: their weights are 0.
         let next = self.state.get(row + 1).unwrap_or(own);
-        forces.compute(springs, row % 2, &self.rows[row].weights, own, next);
+        let pair = Pair {
+            springs,
+            softening: self.softening.as_ref(),
+            odd: row % 2,
+            make: &self.rows[row],
+            row: own,
+            next,
+        };
+        pair.compute(forces);
     }
 
     /// Advances all particles by a step [s] under the loads of contacts, which are in the order of the rows; returns the impulse on the
@@ -191,6 +209,58 @@ impl Body {
         }
     }
 
+    /// Largest angular frequency [rad/s], by power iteration on the accelerations of small displacements. The start is random, so that
+    /// every motion is in it, and the result is raised by what thirty rounds may leave.
+    pub(super) fn measured_frequency(&self) -> f64 {
+        let mut body = self.clone();
+        body.softening = None;
+        let size = 1e-9 * self.lattice.spacing;
+        for row in 0..body.rows.len() {
+            let make = &body.rows[row];
+            let motion = &mut body.motion[row];
+            for place in (0..self.stride).filter(|&place| make.mass[place] > 0.0) {
+                let index = 3 * (row * self.stride + place) as u64;
+                let draw = |part| unit(FREQUENCY_STREAM, index + part) - 0.5;
+                motion.x[place] = draw(0);
+                motion.z[place] = draw(1);
+                motion.spin[place] = draw(2) / self.lattice.spacing;
+            }
+        }
+        let mut square = 0.0;
+        for _ in 0..FREQUENCY_ROUNDS {
+            let before = body.motion_norm();
+            body.displace_by_motion(size / before);
+            body.advance(1.0, &[]);
+            square = body.motion_norm() / size;
+        }
+        FREQUENCY_MARGIN * square.sqrt()
+    }
+
+    /// Root of twice the kinetic energy over that of a velocity of 1 m/s.
+    fn motion_norm(&self) -> f64 {
+        let mut sum = 0.0;
+        for (make, motion) in self.rows.iter().zip(&self.motion) {
+            for place in (0..self.stride).filter(|&place| make.inverse_mass[place] > 0.0) {
+                let speeds = motion.x[place].powi(2) + motion.z[place].powi(2);
+                sum += make.mass[place] * speeds
+                    + motion.spin[place].powi(2) / make.inverse_inertia[place];
+            }
+        }
+        (sum / self.mass()).sqrt()
+    }
+
+    /// Makes the velocities, times a factor, displacements of a body at rest.
+    fn displace_by_motion(&mut self, factor: f64) {
+        for (state, motion) in self.state.iter_mut().zip(&mut self.motion) {
+            for place in 0..self.stride {
+                state.x[place] = factor * std::mem::take(&mut motion.x[place]);
+                state.z[place] = factor * std::mem::take(&mut motion.z[place]);
+                let angle = factor * std::mem::take(&mut motion.spin[place]);
+                (state.cosine[place], state.sine[place]) = (1.0, angle);
+            }
+        }
+    }
+
     /// Energies now, the velocities taken half a step on under the same loads.
     pub(super) fn sums(&self, step: f64, loads: &[Load]) -> BodySums {
         let rows: Vec<BodySums> = (0..self.rows.len())
@@ -202,7 +272,7 @@ impl Body {
         for row in rows {
             sums.kinetic += row.kinetic;
             sums.elastic += row.elastic;
-            sums.largest_stretch = sums.largest_stretch.max(row.largest_stretch);
+            sums.fracture += row.fracture;
         }
         sums
     }
@@ -237,8 +307,7 @@ impl Body {
                 if weight > 0.0 {
                     let found = self.bond_of(row, place, kind);
                     sums.elastic += found.energy;
-                    let stretch = found.elongation.abs() / springs.length;
-                    sums.largest_stretch = sums.largest_stretch.max(stretch);
+                    sums.fracture += self.fracture_energy((row, place, kind), found.worst);
                 }
             }
         }
@@ -256,7 +325,6 @@ impl Body {
     /// Force and energy of one bond.
     pub(super) fn bond_of(&self, row: usize, place: usize, kind: usize) -> BondForce {
         let (other_row, other) = self.other_end(row, place, kind);
-        let weight = self.rows[row].weights[kind][place];
         let pose = |row: usize, place: usize| {
             let state = &self.state[row];
             Pose {
@@ -264,8 +332,39 @@ impl Body {
                 turn: [state.cosine[place], state.sine[place]],
             }
         };
-        let ends = (pose(row, place), pose(other_row, other));
-        bond(&self.springs(), DIRECTIONS[kind], weight, ends.0, ends.1)
+        let (a, b) = (pose(row, place), pose(other_row, other));
+        let (softening, rest) = (self.softening.as_ref(), self.rest(row, place, kind));
+        let worst = match softening {
+            Some(_) => self.state[row].worst[kind][place],
+            None => 0.0,
+        };
+        bond(&self.springs(), softening, rest, worst, a, b)
+    }
+
+    /// A bond at rest.
+    pub(super) fn rest(&self, row: usize, place: usize, kind: usize) -> Rest {
+        let make = &self.rows[row];
+        let (direction, length) = match make.is_moved() {
+            true => {
+                let rests = &make.rests[kind];
+                ([rests.x[place], rests.z[place]], rests.length[place])
+            }
+            false => (DIRECTIONS[kind], self.lattice.spacing),
+        };
+        Rest {
+            direction,
+            length,
+            weight: make.weights[kind][place],
+        }
+    }
+
+    /// Energy that the softening of a bond has taken [J per m].
+    fn fracture_energy(&self, (row, place, kind): (usize, usize, usize), worst: f64) -> f64 {
+        let Some(softening) = &self.softening else {
+            return 0.0;
+        };
+        let rest = self.rest(row, place, kind);
+        softening.energy(rest.length, rest.weight * self.lattice.normal, worst)
     }
 
     /// Row and place of the second particle of a bond.
@@ -275,12 +374,12 @@ impl Body {
     }
 }
 
-/// Energies [J per m] and largest stretch of a bond.
+/// Energies [J per m].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct BodySums {
     pub(super) kinetic: f64,
     pub(super) elastic: f64,
-    pub(super) largest_stretch: f64,
+    pub(super) fracture: f64,
 }
 
 /// Leapfrog of the particles of a row.
