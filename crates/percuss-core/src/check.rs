@@ -220,7 +220,7 @@ pub mod limits {
     /// Pressure coefficient of the shear modulus [1/Pa], where it is not zero.
     pub const PRESSURE_COEFFICIENT: Limits = limits(1e-12, 1e-9);
     /// Temperature coefficient of the shear modulus [1/K], where it is not zero.
-    pub const TEMPERATURE_COEFFICIENT: Limits = limits(1e-6, 1e-2);
+    pub const TEMPERATURE_COEFFICIENT: Limits = limits(1e-5, 1e-2);
     /// Specific heat [J/(kg K)].
     pub const SPECIFIC_HEAT: Limits = limits(50.0, 10_000.0);
     /// Temperature [K].

@@ -114,6 +114,11 @@ def test_every_command_gives_the_answer_of_the_program(program: Program, tmp_pat
 
     assert limits.rear_face is not None and not limits.rear_face.assumed
     assert [m.to_dict() for m in percuss.materials("titanium")] == answer(program, "materials", "titanium")
+    hard = percuss.materials("armour", group="steel", hardness=(350, 500))
+    assert [m.to_dict() for m in hard] == answer(program, "materials", "armour", "--group", "steel", "--hardness", "350..500")
+    curves = percuss.flow_curves("rha", "4340", rate=["1 1/s"], temperature="400 K")
+    said = answer(program, "materials", "compare", "rha", "4340", "--rate", "1 1/s", "--temperature", "400 K")
+    assert [c.to_dict() for c in curves] == said and len(curves) == 2
 
     shots = tmp_path / "shots.csv"
     shots.write_text("impact_velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")

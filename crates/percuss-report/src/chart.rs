@@ -220,7 +220,10 @@ impl LineChart {
                 Style::Line | Style::Dashed => LegendShape::Line,
                 _ => LegendShape::Marker(marker(index, series)),
             };
-            let dashes = (series.style == Style::Dashed).then(|| DASHES.to_owned());
+            let dashes = match shape {
+                LegendShape::Line => dashes(series).map(str::to_owned),
+                _ => None,
+            };
             (legend_name(series), self.color(index), shape, dashes)
         });
         series

@@ -1,7 +1,7 @@
 //! All constants of a material, for the terminal and the page.
 
 use percuss::{
-    material::{Library, Material, MaterialEntry, TulerButcher, references},
+    material::{Library, Material, MaterialEntry, MaterialGroup, TulerButcher, references},
     units::{Pressure, Velocity, significant},
 };
 
@@ -100,9 +100,6 @@ impl MaterialCard {
 
     /// A page that lists the materials of a library, with a link `address(id)` to each card.
     pub fn list_html(library: &Library, address: impl Fn(&str) -> String) -> String {
-        let mut families: Vec<&str> = library.iter().map(family).collect();
-        families.sort_unstable();
-        families.dedup();
         let mut page = vec![
             Block::Title("Materials".to_owned()),
             Block::Text(
@@ -111,11 +108,18 @@ impl MaterialCard {
                     .to_owned(),
             ),
         ];
-        for name in families {
-            page.push(Block::Heading(name.to_owned()));
-            let links = library.iter().filter(|entry| family(entry) == name);
+        let groups = MaterialGroup::ALL.into_iter().map(Some);
+        for group in groups.chain([None]) {
+            let mut entries: Vec<&MaterialEntry> = library.iter().collect();
+            entries.retain(|entry| entry.material.group == group);
+            if entries.is_empty() {
+                continue;
+            }
+            entries.sort_by_key(|entry| (family(entry), &entry.id));
+            let heading = group.map_or("Other materials", MaterialGroup::describe);
+            page.push(Block::Heading(heading.to_owned()));
             let link = |entry: &MaterialEntry| (address(&entry.id), in_one_line(entry));
-            page.push(Block::Links(links.map(link).collect()));
+            page.push(Block::Links(entries.into_iter().map(link).collect()));
         }
         html::render(&page)
     }
@@ -176,6 +180,12 @@ fn names(entry: &MaterialEntry, card: &mut MaterialCard) {
             ""
         };
         card.row("family", &format!("{family}{star}"));
+    }
+    if let Some(group) = material.group {
+        card.row("group", group.key());
+    }
+    if !material.aliases.is_empty() {
+        card.row("aliases", &material.aliases.join(", "));
     }
     if let Some(state) = &material.state {
         card.row("state", state);

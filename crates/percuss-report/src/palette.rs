@@ -21,6 +21,11 @@ pub fn symbol_color(index: usize) -> &'static str {
     SERIES[index % SYMBOLS]
 }
 
+/// The symbol of a colour and of dashes: what differs in two ways at once has six colours and four kinds of lines.
+pub(crate) fn symbol(color: usize, dashes: usize) -> usize {
+    color % SYMBOLS + dashes * SYMBOLS
+}
+
 /// Dashes and gaps of a line [px], and what a legend calls it.
 pub(crate) struct Dashes {
     pub(crate) pattern: &'static str,

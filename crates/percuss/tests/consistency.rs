@@ -473,7 +473,12 @@ fn every_model_applies_to_some_shot_and_says_why_not_to_the_others() {
     }
 }
 
-/// Every metal of the library, as a projectile and as a target: a finite answer or a reason, and no depth at rest.
+/// Whether a model without erosion crushes a rod of this material: soft and weak, it is not pushed back before a cell is gone.
+fn is_crushed(model: &dyn Model, id: &str, scenario: &Scenario) -> bool {
+    (model.name(), id) == ("fdm", "polycarbonate-vaango") && scenario.impact_velocity > 1000.0
+}
+
+/// Every metal and polymer of the library, as a projectile and as a target: a finite answer or a reason, and no depth at rest.
 #[test]
 fn every_material_works_in_every_model() {
     let mut answered = 0;
@@ -503,6 +508,12 @@ fn every_material_works_in_every_model() {
         for text in cases {
             let scenario = shot(&text);
             for model in model::fast_models() {
+                if is_crushed(model, id, &scenario) {
+                    let error = model::run(model, &scenario, &mut Control::default());
+                    let said = error.unwrap_err().to_string();
+                    assert!(said.contains("has no erosion: use the model"), "{said}");
+                    continue;
+                }
                 let Some(result) = run(model, &scenario) else {
                     continue;
                 };

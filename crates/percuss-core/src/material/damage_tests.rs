@@ -168,5 +168,5 @@ fn shipped_constants_are_sourced_and_fail_in_tension_before_they_fail_in_shear()
         );
         assert!((0.1..10.0).contains(&at(1.0 / 3.0)), "{}", entry.id);
     }
-    assert_eq!(count, 6);
+    assert_eq!(count, 8);
 }

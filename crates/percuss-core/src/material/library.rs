@@ -27,8 +27,11 @@ const FILES: &[(&str, &str)] = files![
     "holtz.toml",
     "johnson1983.toml",
     "johnson1989.toml",
+    "lesuer2000.toml",
     "lesuer2001.toml",
+    "meyer2001.toml",
     "payette.toml",
+    "ryan2023.toml",
     "steinberg1996.toml",
     "vaango.toml",
     "woodward1982.toml",
@@ -43,6 +46,11 @@ pub struct MaterialEntry {
     pub origin: String,
     /// The record.
     pub material: Arc<Material>,
+}
+
+/// A name as aliases are written: lower case, with hyphens for blanks and `_`.
+pub(super) fn alias_form(name: &str) -> String {
+    name.trim().to_lowercase().replace([' ', '_'], "-")
 }
 
 /// Materials by id and by family.
@@ -95,13 +103,41 @@ impl Library {
         self.entries.values()
     }
 
-    /// The record with this id, or the recommended one of the family with this name.
+    /// The record with this id, or the recommended one of the family with this name, or the one to which an alias leads.
+    ///
+    /// An alias of several families leads nowhere; [`Library::suggestion`] lists them.
     pub fn find(&self, name: &str) -> Option<&MaterialEntry> {
-        self.entries.get(name).or_else(|| {
+        let recommended = || {
             self.iter().find(|entry| {
                 entry.material.recommended && entry.material.family.as_deref() == Some(name)
             })
-        })
+        };
+        let alias = || match self.with_alias(name).as_slice() {
+            [one] => Some(*one),
+            _ => None,
+        };
+        self.entries.get(name).or_else(recommended).or_else(alias)
+    }
+
+    /// The records to which an alias leads, one of each family: the recommended one where it has the alias. Case does not matter, and a
+    /// blank or `_` stands for `-`.
+    pub fn with_alias(&self, name: &str) -> Vec<&MaterialEntry> {
+        let alias = alias_form(name);
+        let mut found: Vec<&MaterialEntry> = Vec::new();
+        for entry in self.iter() {
+            if !entry.material.aliases.contains(&alias) {
+                continue;
+            }
+            let family = &entry.material.family;
+            let rival =
+                |other: &&mut &MaterialEntry| family.is_some() && other.material.family == *family;
+            match found.iter_mut().find(rival) {
+                Some(other) if entry.material.recommended => *other = entry,
+                Some(_) => {}
+                None => found.push(entry),
+            }
+        }
+        found
     }
 
     /// The records of a family, or of the family that a record belongs to.

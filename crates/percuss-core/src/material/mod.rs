@@ -6,6 +6,8 @@ mod cavity;
 mod damage;
 mod equation_of_state;
 mod failure;
+mod flow_curve;
+mod group;
 mod library;
 mod plastic_return;
 mod references;
@@ -16,6 +18,7 @@ mod strength;
 mod tensile;
 #[cfg(test)]
 mod tests;
+mod unmodelled;
 mod yield_point;
 
 use std::collections::BTreeMap;
@@ -31,13 +34,17 @@ pub use cavity::{cavity_expansion_pressure, cylindrical_cavity_pressure};
 pub use damage::{Damage, DamageState, PreparedDamage};
 pub use equation_of_state::EquationOfState;
 pub use failure::*;
+pub use flow_curve::IsothermalFlowCurve;
+pub use group::MaterialGroup;
 pub use library::{Library, MaterialEntry};
 pub use plastic_return::plastic_increments;
 pub use references::{Reference, references};
+pub use search::Filter;
 pub use state_equation::{StateEquation, impedance_match};
 pub use strength::strength_factor;
 pub use strength::*;
 pub use tensile::tensile_strength;
+pub use unmodelled::reason_not_modelled;
 pub use yield_point::{LaneTrial, Trial, YieldPoint};
 
 /// One parameter set of a material, as a file holds it.
@@ -51,6 +58,12 @@ pub struct Material {
     /// Group of rival records that describe the same material; its recommended record answers to this name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub family: Option<String>,
+    /// What the material is made of, for lists and searches.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub group: Option<MaterialGroup>,
+    /// Other names of the material, in lower case. A name that several families have selects none of them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub aliases: Vec<String>,
     /// Temper, heat treatment or condition.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<String>,

@@ -13,6 +13,16 @@ impl Material {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>) {
         let check = &mut check.of_material();
+        for alias in &self.aliases {
+            let form = super::library::alias_form(alias);
+            if *alias != form || form.is_empty() {
+                check.fail(
+                    "aliases",
+                    format!("`{alias}` is not in the form of aliases"),
+                    format!("lower case, with hyphens for blanks and `_`: `{form}`"),
+                );
+            }
+        }
         check.quantity("density", self.density, limits::DENSITY);
         check.quantity(
             "youngs_modulus",
@@ -164,6 +174,15 @@ mod tests {
         let foam = "name = 'foam'\ndensity = '30 kg/m3'\nyoungs_modulus = '20 MPa'\npoissons_ratio = 0.1\n\
                     strength.perfectly_plastic = { flow_stress = '400 kPa' }";
         assert_eq!(diagnostics(foam), []);
+    }
+
+    #[test]
+    fn an_alias_that_no_lookup_could_find_is_a_finding() {
+        let text = polymer("5 MPa").replacen("density", "aliases = ['my_PC', 'pc-2']\ndensity", 1);
+        let found = diagnostics(&text);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].key, "aliases");
+        assert!(found[0].help.contains("`my-pc`"), "{found:?}");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Search of the material library, and suggestions for a name that it does not have.
 
-use super::{Library, MaterialEntry};
+use super::{Library, MaterialEntry, MaterialGroup, reason_not_modelled};
 use crate::error::nearest;
 
 /// Other words for what the library has: spellings, symbols of elements, and common abbreviations.
@@ -8,58 +8,90 @@ const SYNONYMS: &[(&str, &str)] = &[
     ("al", "aluminium"),
     ("alu", "aluminium"),
     ("aluminum", "aluminium"),
-    ("armor", "steel"),
-    ("armour", "steel"),
-    ("armox", "steel"),
-    ("cu", "copper"),
-    ("fe", "iron"),
-    ("hha", "steel"),
-    ("pb", "lead"),
-    ("rha", "steel"),
-    ("ta", "tantalum"),
-    ("ti", "ti-6al-4v"),
-    ("ti64", "ti-6al-4v"),
-    ("titanium", "ti-6al-4v"),
-    ("w", "tungsten"),
-    ("wc", "tungsten-carbide"),
-    ("wha", "tungsten-alloy"),
-    ("wolfram", "tungsten"),
+    ("armor", "armour"),
 ];
-/// Names of armour steels that the library has no record of: its other steels are no equivalents.
-const ARMOUR: &[&str] = &["armor", "armour", "armox", "hha", "rha"];
 /// Families that a suggestion names at most.
 const MOST: usize = 8;
 
+/// What a list of materials is narrowed to; everything without one.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Filter<'a> {
+    /// Words that id, family, group, name, aliases or state hold.
+    pub words: &'a str,
+    /// Group.
+    pub group: Option<MaterialGroup>,
+    /// Family of alternative records.
+    pub family: Option<&'a str>,
+    /// Smallest and largest Brinell hardness [kgf/mm2]; records without one are left out.
+    pub brinell: Option<[f64; 2]>,
+}
+
+impl Filter<'_> {
+    fn holds(&self, entry: &MaterialEntry) -> bool {
+        let material = &entry.material;
+        let group = self.group.is_none_or(|it| material.group == Some(it));
+        let family = self
+            .family
+            .is_none_or(|it| material.family.as_deref() == Some(it));
+        let hard = self.brinell.is_none_or(|[least, most]| {
+            let hardness = material.brinell_hardness;
+            hardness.is_some_and(|it| (least..=most).contains(&it))
+        });
+        group && family && hard && self.has_words(entry)
+    }
+
+    fn has_words(&self, entry: &MaterialEntry) -> bool {
+        let text = text_of(entry);
+        let words = self.words.to_lowercase();
+        words.split_whitespace().map(synonym).all(|word| {
+            // A symbol of one or two letters is a name of its own, not a part of words.
+            match word.len() {
+                0..=2 => text.split_whitespace().any(|part| part == word),
+                _ => text.contains(word),
+            }
+        })
+    }
+}
+
 impl Library {
-    /// The records whose id, family, name or state hold every word, in the order of their ids. Case does not matter, and common
-    /// synonyms are known: `aluminum`, `titanium`, `rha`.
+    /// The records whose id, family, group, name, aliases or state hold every word, in the order of their ids. Case does not matter, and
+    /// common synonyms are known: `aluminum`, `armor`.
     pub fn search(&self, words: &str) -> Vec<&MaterialEntry> {
-        let words = words.to_lowercase();
-        let wanted: Vec<&str> = words.split_whitespace().map(synonym).collect();
-        let has = |entry: &&MaterialEntry| {
-            let text = text_of(entry);
-            wanted.iter().all(|word| text.contains(word))
-        };
-        match wanted.is_empty() {
+        match words.trim().is_empty() {
             true => Vec::new(),
-            false => self.iter().filter(has).collect(),
+            false => self.filter(&Filter {
+                words,
+                ..Filter::default()
+            }),
         }
     }
 
-    /// What a user may have meant by a name that is no id and no family, in one sentence or two that end with a space; empty where
-    /// nothing is near.
-    pub fn suggestion(&self, name: &str) -> String {
-        let mut families: Vec<&str> = Vec::new();
-        for entry in self.search(name) {
-            let family = entry.material.family.as_deref().unwrap_or(&entry.id);
-            if !families.contains(&family) {
-                families.push(family);
-            }
+    /// The records that a filter leaves, in the order of their ids.
+    pub fn filter(&self, filter: &Filter<'_>) -> Vec<&MaterialEntry> {
+        self.iter().filter(|entry| filter.holds(entry)).collect()
+    }
+
+    /// What is wrong with a name to which no record answers.
+    pub fn unknown(&self, name: &str) -> String {
+        let name_shown = crate::units::shorten(name);
+        match self.with_alias(name).len() {
+            0 | 1 => format!("no material is named `{name_shown}`"),
+            _ => format!("several materials are named `{name_shown}`"),
         }
-        let armour = match ARMOUR.contains(&name.to_lowercase().as_str()) {
-            true => "the library has no armour steel of that name; ",
-            false => "",
-        };
+    }
+
+    /// What a user may have meant by a name that is no id, no family and no alias, or why there is no such record, in one sentence or two
+    /// that end with a space; empty where nothing is near.
+    pub fn suggestion(&self, name: &str) -> String {
+        if let Some(reason) = reason_not_modelled(name) {
+            return format!("{reason}. ");
+        }
+        let fitting = families(&self.with_alias(name));
+        if fitting.len() > 1 {
+            let named = listed(&fitting, fitting.len());
+            return format!("take one of {named}. ");
+        }
+        let families = families(&self.search(name));
         match families.as_slice() {
             [] => self
                 .nearest(name)
@@ -70,13 +102,8 @@ impl Library {
                     true => ", …",
                     false => "",
                 };
-                let named: Vec<String> = several
-                    .iter()
-                    .take(MOST)
-                    .map(|family| format!("`{family}`"))
-                    .collect();
                 let kind = synonym(&name.to_lowercase()).to_owned();
-                format!("{armour}records of {kind}: {}{more}. ", named.join(", "))
+                format!("records of {kind}: {}{more}. ", listed(several, MOST))
             }
         }
     }
@@ -91,6 +118,28 @@ impl Library {
     }
 }
 
+/// The families of records, each once.
+fn families<'a>(entries: &[&'a MaterialEntry]) -> Vec<&'a str> {
+    let mut families: Vec<&str> = Vec::new();
+    for entry in entries {
+        let family = entry.material.family.as_deref().unwrap_or(&entry.id);
+        if !families.contains(&family) {
+            families.push(family);
+        }
+    }
+    families
+}
+
+/// The first names of a list.
+fn listed(names: &[&str], most: usize) -> String {
+    let named: Vec<String> = names
+        .iter()
+        .take(most)
+        .map(|name| format!("`{name}`"))
+        .collect();
+    named.join(", ")
+}
+
 /// The library's word for a word.
 fn synonym(word: &str) -> &str {
     let known = SYNONYMS.iter().find(|(other, _)| *other == word);
@@ -101,10 +150,13 @@ fn synonym(word: &str) -> &str {
 fn text_of(entry: &MaterialEntry) -> String {
     let material = &entry.material;
     let [family, state] = [&material.family, &material.state].map(|text| text.as_deref());
+    let aliases = material.aliases.join(" ");
     [
-        &entry.id,
+        entry.id.as_str(),
         family.unwrap_or_default(),
+        material.group.map_or("", MaterialGroup::key),
         &material.name,
+        &aliases,
         state.unwrap_or_default(),
     ]
     .join(" ")
@@ -123,25 +175,93 @@ mod tests {
     #[test]
     fn every_word_has_to_be_found() {
         assert_eq!(ids("aluminium").len(), ids("Aluminum").len());
-        assert!(ids("aluminium").len() >= 6, "{:?}", ids("aluminium"));
-        assert_eq!(ids("aluminium lesuer"), ["6061-t6-lesuer"]);
-        assert_eq!(ids("titanium"), ["ti-6al-4v-static", "ti-6al-4v-steinberg"]);
+        assert!(ids("aluminium").len() >= 18, "{:?}", ids("aluminium"));
+        assert_eq!(ids("aluminium lesuer 6061"), ["6061-t6-lesuer"]);
+        assert_eq!(
+            ids("titanium 6al"),
+            ["ti-6al-4v-meyer", "ti-6al-4v-static", "ti-6al-4v-steinberg"]
+        );
+        assert_eq!(
+            ids("armor class"),
+            ["hha-class-1-plate", "rha-class-1-plate"]
+        );
+        assert_eq!(ids("pb"), ["lead-steinberg"]);
         assert!(ids("unobtainium").is_empty() && ids("  ").is_empty());
+    }
+
+    #[test]
+    fn group_family_and_hardness_narrow_a_list() {
+        let library = Library::built_in();
+        let filtered = |filter: Filter<'_>| -> Vec<&str> {
+            let found = library.filter(&filter).into_iter();
+            found.map(|entry| entry.id.as_str()).collect()
+        };
+        let everything = Filter::default();
+        assert_eq!(filtered(everything).len(), library.iter().count());
+        let steel = Filter {
+            group: Some(MaterialGroup::Steel),
+            ..everything
+        };
+        assert!(filtered(steel).contains(&"4340-johnson-cook"));
+        assert!(!filtered(steel).contains(&"copper-woodward"));
+        let hard = Filter {
+            brinell: Some([360.0, 370.0]),
+            ..steel
+        };
+        assert_eq!(filtered(hard), ["rha-class-1-plate"]);
+        let family = Filter {
+            family: Some("ofhc-copper"),
+            ..everything
+        };
+        assert_eq!(
+            filtered(family),
+            ["ofhc-copper-johnson-cook", "ofhc-copper-steinberg"]
+        );
+    }
+
+    #[test]
+    fn an_alias_leads_to_one_material_or_names_several() {
+        let library = Library::built_in();
+        for (alias, id) in [
+            ("RHA", "rha-class-1-plate"),
+            ("rolled homogeneous armour", "rha-class-1-plate"),
+            ("304", "304-steinberg"),
+            ("mild_steel", "1006-johnson-cook"),
+            ("6061", "6061-t6-lesuer"),
+            ("OFHC", "ofhc-copper-johnson-cook"),
+            ("brass", "cartridge-brass-johnson-cook"),
+            ("lead", "lead-steinberg"),
+            ("wolfram", "tungsten-steinberg"),
+            ("ti64", "ti-6al-4v-steinberg"),
+            ("2024-t351", "aluminium-2024-t351-woodward"),
+        ] {
+            let found = library.find(alias).map(|entry| entry.id.as_str());
+            assert_eq!(found, Some(id), "{alias}");
+        }
+        assert!(library.find("5083").is_none());
+        let said = library.suggestion("5083");
+        assert_eq!(said, "take one of `5083-h112`, `5083-h116`, `5083-h131`. ");
+        for several in ["2024", "7075", "armox", "mars", "DU"] {
+            assert!(library.with_alias(several).len() > 1, "{several}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_modelled_says_why() {
+        let said = Library::built_in().suggestion("Dyneema");
+        for part in ["isotropic", "percuss limit --shots"] {
+            assert!(said.contains(part), "{said}");
+        }
     }
 
     #[test]
     fn a_general_word_suggests_families_and_a_typo_one_name() {
         let library = Library::built_in();
         for (name, parts) in [
-            (
-                "steel",
-                &["`4340`", "`weldox-460-e`", "`s-7-tool-steel`"][..],
-            ),
-            ("RHA", &["no armour steel of that name", "`4340`"]),
-            ("aluminum", &["`6061-t6`", "`aluminium-2024-t351`"]),
-            ("aluminium", &["`6061-t6`", "`aluminium-2024-t351`"]),
-            ("titanium", &["did you mean `ti-6al-4v`?"]),
-            ("wolfram", &["`tungsten`", "`tungsten-alloy`"]),
+            ("steel", &["records of steel: `1006`", "`4340`", ", …"][..]),
+            ("aluminum", &["records of aluminium: ", "`6061-t6`"]),
+            ("aluminium", &["records of aluminium: ", "`6061-t6`"]),
+            ("titanium", &["`ti-6al-4v`", "`titanium-pure`"]),
             ("ofhc-coper", &["did you mean `ofhc-copper`?"]),
         ] {
             let said = library.suggestion(name);

@@ -116,7 +116,7 @@ fn look_up<'a>(
         let near = library.suggestion(name);
         check.of_material().fail(
             &format!("{table}.material"),
-            format!("no material is named `{}`", crate::units::shorten(name)),
+            library.unknown(name),
             format!("{near}`percuss materials` lists all; your own go under `[materials.NAME]`"),
         );
     }

@@ -137,7 +137,7 @@ impl Template {
         let entry = self.library.find(id).ok_or_else(|| {
             let near = self.library.suggestion(id);
             fail(
-                format!("no material is named `{id}`"),
+                self.library.unknown(id),
                 format!("{near}`percuss materials` lists all"),
             )
         })?;

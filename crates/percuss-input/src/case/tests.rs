@@ -24,7 +24,11 @@ fn an_error_knows_whether_it_is_of_a_material() {
     let with_mine = format!("{SHORT}{MINE}");
     for (right, wrong, subject) in [
         ("\"copper\"", "\"coper\"", Subject::Material),
-        ("\"aluminium-2024-t351\"", "\"tin\"", Subject::Material),
+        (
+            "\"aluminium-2024-t351\"",
+            "\"unobtainium\"",
+            Subject::Material,
+        ),
         ("'8 g/cm3'", "'8 kg/m3'", Subject::Material),
         ("'300 MPa'", "'300 mm'", Subject::Material),
         ("strength.", "strenght.", Subject::Material),

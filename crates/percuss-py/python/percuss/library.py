@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -69,13 +70,27 @@ class Model(Record):
         return [*super()._shown(), *rows, ("options", ", ".join(self.options))]
 
 
-def materials(search: str | None = None, *, case: CaseLike | None = None, file: Path | None = None) -> Records[Material]:
+def materials(
+    search: str | None = None,
+    *,
+    group: str | None = None,
+    family: str | None = None,
+    hardness: str | tuple[float, float] | None = None,
+    case: CaseLike | None = None,
+    file: Path | None = None,
+) -> Records[Material]:
     """Lists the materials of the library.
 
     Parameters
     ----------
     search : str, optional
-        Words to search for in id, family, name and state, such as ``"aluminium"``; all materials when not given.
+        Words to search for in id, family, group, name, aliases and state, such as ``"aluminium"``; all materials when not given.
+    group : str, optional
+        Only materials of a group, such as ``"steel"``.
+    family : str, optional
+        Only the alternative records of one material.
+    hardness : str or tuple of float, optional
+        Only materials with a Brinell hardness in this range [kgf/mm2], such as ``(350, 500)`` or ``"350..500"``.
     case : Case or path, optional
         Case whose materials are included, and those of the files that it names.
     file : path, optional
@@ -85,28 +100,73 @@ def materials(search: str | None = None, *, case: CaseLike | None = None, file: 
     --------
     >>> "copper-woodward" in [material.id for material in percuss.materials()]
     True
-    >>> [material.id for material in percuss.materials("titanium")]
-    ['ti-6al-4v-static', 'ti-6al-4v-steinberg']
+    >>> [material.id for material in percuss.materials("ti-6al-4v")]
+    ['ti-6al-4v-meyer', 'ti-6al-4v-static', 'ti-6al-4v-steinberg']
+    >>> [material.id for material in percuss.materials(group="steel", hardness=(360, 370))]
+    ['rha-class-1-plate']
     """
     words = [] if search is None else [search]
-    records = answer("materials", *words, case=case, file=file)
-    return Records(map(Material, records), "id", "family", "name", "state", "density", "trust", "sources")
+    ends = hardness if hardness is None or isinstance(hardness, str) else "{}..{}".format(*hardness)
+    records = answer("materials", *words, group=group, family=family, hardness=ends, case=case, file=file)
+    return Records(map(Material, records), "id", "family", "group", "name", "state", "density", "trust", "sources")
+
+
+def flow_curves(
+    *names: str,
+    rate: str | Sequence[str] | None = None,
+    temperature: str | None = None,
+    case: CaseLike | None = None,
+    file: Path | None = None,
+    out: Path | None = None,
+) -> Records[Record]:
+    """Computes the flow curves of materials: stress against plastic strain at constant strain rates and one temperature.
+
+    Parameters
+    ----------
+    names : str
+        Ids, families or aliases.
+    rate : str or sequence of str, optional
+        Plastic strain rates with their units; ``"0.001 1/s"`` and ``"1000 1/s"`` when not given.
+    temperature : str, optional
+        Temperature with its unit; the room temperature of each record when not given.
+    case, file : optional
+        As in :func:`materials`.
+    out : path, optional
+        Folder for the curves and their figure; made if it does not exist.
+
+    Returns
+    -------
+    Records of ``material``, ``strain_rate_per_s``, ``temperature_k``, ``plastic_strain`` and ``flow_stress_mpa``, one a curve.
+
+    Raises
+    ------
+    MaterialError
+        When a name is unknown or stands for several materials.
+
+    Examples
+    --------
+    >>> slow, fast = percuss.flow_curves("ofhc")
+    >>> round(slow.flow_stress_mpa[0])
+    90
+    """
+    curves = answer("materials compare", *names, rate=rate, temperature=temperature, case=case, file=file, out=out)
+    return Records(map(Record, curves), "material", "strain_rate_per_s", "temperature_k")
 
 
 def material(name: str, *, case: CaseLike | None = None, file: Path | None = None) -> Material:
-    """Returns all constants of a material, by its id or its family.
+    """Returns all constants of a material, by its id, its family or an alias.
 
     Parameters
     ----------
     name : str
-        Id or family.
+        Id, family or alias, such as ``"rha"``.
     case, file : optional
         As in :func:`materials`.
 
     Raises
     ------
     MaterialError
-        When the name is unknown.
+        When the name is unknown or stands for several materials.
 
     Examples
     --------

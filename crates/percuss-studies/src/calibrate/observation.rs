@@ -99,7 +99,7 @@ impl Observations {
                 let entry = library.find(id).ok_or_else(|| {
                     let near = library.suggestion(id);
                     let help = format!("{near}`percuss materials` lists all");
-                    parameter.no_material(&format!("no material is named `{id}`"), &help)
+                    parameter.no_material(&library.unknown(id), &help)
                 })?;
                 fitted_materials.push(entry);
             }

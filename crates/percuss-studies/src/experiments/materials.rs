@@ -5,7 +5,6 @@ use crate::{
     check::Diagnostic,
     error::{InputError, Subject},
     material::Library,
-    units::shorten,
 };
 
 /// Makes sure that a case can be made of a test with each of its records.
@@ -18,7 +17,7 @@ pub(super) fn check(
         let near = library.suggestion(name);
         let error = row.error(
             column,
-            format!("no material is named `{}`", shorten(name)),
+            library.unknown(name),
             format!("{near}`percuss materials` lists all; {help}"),
         );
         Box::new(InputError {

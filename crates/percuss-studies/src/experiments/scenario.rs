@@ -156,6 +156,8 @@ impl Properties {
         Material {
             name: name.to_owned(),
             family: None,
+            group: None,
+            aliases: Vec::new(),
             state: None,
             recommended: false,
             trust: test.trust,

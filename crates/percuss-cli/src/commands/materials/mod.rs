@@ -1,14 +1,15 @@
 //! `percuss materials`: list of the materials.
 
+mod compare;
 mod list;
 mod show;
 
 use std::path::PathBuf;
 
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, builder::PossibleValuesParser};
 use percuss::{
     case,
-    material::{Library, Material, MaterialEntry},
+    material::{Filter, Library, Material, MaterialEntry, MaterialGroup},
 };
 use serde::Serialize;
 
@@ -18,21 +19,26 @@ use crate::{
 };
 
 const LONG_ABOUT: &str = "\
-List the materials of the library. A case names a material by its id or its
-family. Alternative records of one material form a family; the name of the
-family selects the record marked ★. Trust grades the numbers: A two independent
-sources, B one secondary source that names its primary source, C indicative.
+List the materials of the library. A case names a material by its id, its
+family or an alias, such as rha, ofhc or 6061. Alternative records of one
+material form a family; the name of the family selects the record marked ★.
+Trust grades the numbers: A two independent sources, B one secondary source that
+names its primary source, C indicative.
 
-With WORDS, only materials with all words in id, family, name or state are
-listed. Common synonyms work, such as aluminum, titanium and rha.
+With WORDS, only materials with all words in id, family, group, name, aliases or
+state are listed. --group, --family and --hardness narrow the list further.
 
-`percuss materials show NAME` prints all constants of a material.";
+`percuss materials show NAME` prints all constants of a material, `percuss
+materials compare NAMES` the flow curves of several.";
 
 const AFTER_HELP: &str = "\
 Examples:
   percuss materials
   percuss materials aluminium
+  percuss materials armour --hardness 350..500
+  percuss materials --group refractory_metal
   percuss materials show copper
+  percuss materials compare rha 4340 --out curves
   percuss materials show my-alloy --case my-case/scenario.toml
   percuss materials --json
 
@@ -52,7 +58,17 @@ pub struct Materials {
     /// Include the materials of a file
     #[arg(long, global = true, value_name = "FILE", conflicts_with = "case")]
     file: Option<PathBuf>,
-    /// Words to search for in id, family, name and state
+    /// Only materials of a group, such as steel, aluminium or polymer
+    #[arg(long, value_name = "GROUP")]
+    #[arg(value_parser = PossibleValuesParser::new(MaterialGroup::ALL.map(MaterialGroup::key)), hide_possible_values = true)]
+    group: Option<String>,
+    /// Only the alternative records of one material
+    #[arg(long, value_name = "FAMILY")]
+    family: Option<String>,
+    /// Only materials with a Brinell hardness in this range, such as 350..500
+    #[arg(long, value_name = "FROM..TO", value_parser = hardness)]
+    hardness: Option<[f64; 2]>,
+    /// Words to search for in id, family, group, name, aliases and state
     #[arg(value_name = "WORDS")]
     search: Vec<String>,
     #[command(subcommand)]
@@ -62,6 +78,7 @@ pub struct Materials {
 #[derive(Debug, Subcommand)]
 enum Action {
     Show(show::Show),
+    Compare(compare::Compare),
 }
 
 impl Materials {
@@ -70,6 +87,7 @@ impl Materials {
         match &self.action {
             None => list::list(&self.listed(&library)?, self.json),
             Some(Action::Show(show)) => show.run(&library, self.json),
+            Some(Action::Compare(compare)) => compare.run(&library, self.json),
         }
     }
 
@@ -79,24 +97,43 @@ impl Materials {
         match &self.action {
             None => Response::json_of(&list::records(&self.listed(&library)?), Vec::new()),
             Some(Action::Show(show)) => show.execute(&library),
+            Some(Action::Compare(compare)) => compare.execute(&library),
         }
     }
 
-    /// The materials to list: all of them, or those that hold the words.
+    /// The materials to list: all of them, or those that the words and options leave.
     fn listed<'a>(&self, library: &'a Library) -> Result<Vec<&'a MaterialEntry>, Failure> {
         let words = self.search.join(" ");
-        if words.trim().is_empty() {
-            return Ok(library.iter().collect());
-        }
-        match library.search(&words) {
-            found if found.is_empty() => Err(Failure::Material {
-                message: format!("no material has `{words}` in its id, family, name or state"),
-                help: format!(
-                    "{}`percuss materials` lists all",
-                    library.suggestion(&words)
-                ),
-            }),
+        let filter = Filter {
+            words: &words,
+            group: self.group.as_deref().and_then(MaterialGroup::of),
+            family: self.family.as_deref(),
+            brinell: self.hardness,
+        };
+        match library.filter(&filter) {
+            found if found.is_empty() => Err(self.nothing(library, &words)),
             found => Ok(found),
+        }
+    }
+
+    /// Why nothing is listed.
+    fn nothing(&self, library: &Library, words: &str) -> Failure {
+        let narrowed = self.group.is_some() || self.family.is_some() || self.hardness.is_some();
+        let message = match (words.trim().is_empty(), narrowed) {
+            (true, _) => "no material fits --group, --family and --hardness".to_owned(),
+            (false, true) => format!("no material that the options leave has `{words}`"),
+            (false, false) => format!(
+                "no material has `{words}` in its id, family, group, name, aliases or state"
+            ),
+        };
+        let near = match (narrowed, &self.family) {
+            (false, _) => library.suggestion(words),
+            (true, Some(family)) if library.find(family).is_none() => library.suggestion(family),
+            (true, _) => String::new(),
+        };
+        Failure::Material {
+            message,
+            help: format!("{near}`percuss materials` lists all"),
         }
     }
 
@@ -109,6 +146,16 @@ impl Materials {
             library.add(&case::load_materials(file)?, &file.display().to_string());
         }
         Ok(library)
+    }
+}
+
+/// A range of Brinell hardness.
+fn hardness(text: &str) -> Result<[f64; 2], String> {
+    let number = |part: &str| part.trim().parse::<f64>().ok().filter(|it| *it >= 0.0);
+    let ends = text.split_once("..");
+    match ends.and_then(|(from, to)| Some([number(from)?, number(to)?])) {
+        Some([least, most]) if least <= most => Ok([least, most]),
+        _ => Err("write it as FROM..TO in kgf/mm2, such as 350..500".to_owned()),
     }
 }
 

@@ -21,7 +21,7 @@ Exit codes: 0 ok, 2 no such material, 4 a file could not be read";
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment, after_help = AFTER_HELP)]
 pub struct Show {
-    /// Id or family of the material
+    /// Id, family or alias of the material
     name: String,
 }
 
@@ -59,14 +59,19 @@ impl Show {
     }
 
     fn find<'a>(&self, library: &'a Library) -> Result<&'a MaterialEntry, Failure> {
-        library.find(&self.name).ok_or_else(|| {
-            let near = library.suggestion(&self.name);
-            Failure::Material {
-                message: format!("no material is named `{}`", self.name),
-                help: format!("{near}`percuss materials` lists all"),
-            }
-        })
+        find(library, &self.name)
     }
+}
+
+/// The record of a name.
+pub(super) fn find<'a>(library: &'a Library, name: &str) -> Result<&'a MaterialEntry, Failure> {
+    library.find(name).ok_or_else(|| {
+        let near = library.suggestion(name);
+        Failure::Material {
+            message: library.unknown(name),
+            help: format!("{near}`percuss materials` lists all"),
+        }
+    })
 }
 
 fn card<'a>(entry: &'a MaterialEntry, library: &'a Library) -> Card<'a> {
