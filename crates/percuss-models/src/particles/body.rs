@@ -17,10 +17,32 @@ pub(super) struct RowState {
     pub(super) cosine: Vec<f64>,
     /// Its sine.
     pub(super) sine: Vec<f64>,
-    /// Damage of the bonds that start in the row: their largest elongation, in those at which they start to soften; empty where
-    /// nothing breaks.
+    /// Damage of the bonds that start in the row; empty where nothing breaks.
     #[serde(default)]
+    pub(super) damage: Damage,
+    /// Energy that their softening has taken [J per m].
+    #[serde(default)]
+    pub(super) lost: f64,
+}
+
+/// Damage of the three kinds of bonds that start in a row.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Damage {
+    /// Their largest elongations, in those at which they start to soften.
     pub(super) worst: [Vec<f64>; 3],
+    /// Their deformation a step ago, in the same unit.
+    pub(super) measure: [Vec<f64>; 3],
+}
+
+impl Damage {
+    /// Whole bonds of a row of a number of places.
+    pub(super) fn new(places: usize) -> Self {
+        let zeros = || [0, 1, 2].map(|_| vec![0.0; places]);
+        Self {
+            worst: zeros(),
+            measure: zeros(),
+        }
+    }
 }
 
 /// Velocities of a row, half a step behind its displacements.
@@ -143,7 +165,8 @@ impl Body {
                     z: zeros(),
                     cosine: vec![1.0; stride],
                     sine: zeros(),
-                    worst: Default::default(),
+                    damage: Damage::default(),
+                    lost: 0.0,
                 };
                 rows.count
             ],
@@ -267,7 +290,7 @@ impl Body {
     pub(super) fn soften(&mut self, softening: Softening) {
         self.softening = Some(softening);
         for state in self.state.iter_mut().chain(&mut self.next) {
-            state.worst = [0, 1, 2].map(|_| vec![0.0; self.stride]);
+            state.damage = Damage::new(self.stride);
         }
     }
 

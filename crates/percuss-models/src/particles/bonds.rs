@@ -1,7 +1,7 @@
 //! Forces of the bonds of a row of particles to their next neighbours.
 
 use super::{
-    body::{RowMake, RowState},
+    body::{Damage, RowMake, RowState},
     fracture::Softening,
     lattice::DIRECTIONS,
 };
@@ -31,6 +31,8 @@ pub(super) struct BondForce {
     pub(super) elongation: f64,
     /// Largest elongation so far, in those at which the bond starts to soften.
     pub(super) worst: f64,
+    /// Deformation of both springs, in the same unit.
+    pub(super) measure: f64,
 }
 
 /// A bond at rest.
@@ -88,9 +90,10 @@ pub(super) fn bond(
     let cosine_of_shear = turned[0] * along[0] + turned[1] * along[1];
     let (mut worst, mut normal, mut shear) =
         (worst, weight * springs.normal, weight * springs.shear);
+    let mut measure = 0.0;
     if let Some(softening) = softening {
-        let now = softening.measure(rest, elongation, rest * sine_of_shear);
-        worst = worst.max(now);
+        measure = softening.measure(rest, elongation, rest * sine_of_shear);
+        worst = worst.max(if elongation > 0.0 { measure } else { 0.0 });
         let integrity = softening.integrity(worst);
         shear *= integrity;
         normal *= if elongation > 0.0 { integrity } else { 1.0 };
@@ -108,6 +111,7 @@ pub(super) fn bond(
             + 0.5 * shear * (rest * sine_of_shear) * (rest * sine_of_shear),
         elongation,
         worst,
+        measure,
     }
 }
 
@@ -134,7 +138,7 @@ impl Forces {
 #[derive(Debug, Clone, Default)]
 pub(super) struct RowForces {
     pub(super) of: [Forces; 3],
-    pub(super) worst: [Vec<f64>; 3],
+    pub(super) damage: Damage,
 }
 
 impl RowForces {
@@ -143,7 +147,7 @@ impl RowForces {
         let places = if softens { stride } else { 0 };
         Self {
             of: [0, 1, 2].map(|_| Forces::new(stride)),
-            worst: [0, 1, 2].map(|_| vec![0.0; places]),
+            damage: Damage::new(places),
         }
     }
 }
@@ -176,11 +180,9 @@ impl Pair<'_> {
     #[inline(always)]
     fn kinds<const SOFTENS: bool, const MOVED: bool>(&self, forces: &mut RowForces) {
         let odd = self.odd;
-        let [along, right, left] = &mut forces.of;
-        let [worst_along, worst_right, worst_left] = &mut forces.worst;
-        self.kind::<SOFTENS, MOVED>((0, 2), self.row, along, worst_along);
-        self.kind::<SOFTENS, MOVED>((1, 1 + odd), self.next, right, worst_right);
-        self.kind::<SOFTENS, MOVED>((2, odd), self.next, left, worst_left);
+        self.kind::<SOFTENS, MOVED>((0, 2), self.row, forces);
+        self.kind::<SOFTENS, MOVED>((1, 1 + odd), self.next, forces);
+        self.kind::<SOFTENS, MOVED>((2, odd), self.next, forces);
     }
 
     /// One kind of bonds along a row: the second particle of the first bond stands at `start` of the other row.
@@ -189,9 +191,9 @@ impl Pair<'_> {
         &self,
         (kind, start): (usize, usize),
         other: &RowState,
-        forces: &mut Forces,
-        worst: &mut [f64],
+        forces: &mut RowForces,
     ) {
+        let (damage, forces) = (&mut forces.damage, &mut forces.of[kind]);
         let (row, make) = (self.row, self.make);
         let count = make.mass.len() - 2;
         let weights = &make.weights[kind][1..][..count];
@@ -207,12 +209,9 @@ impl Pair<'_> {
         let rests = &make.rests[kind];
         let moved = |array| inside::<MOVED>(array, count);
         let (nx, nz, lengths) = (moved(&rests.x), moved(&rests.z), moved(&rests.length));
-        let before = inside::<SOFTENS>(&row.worst[kind], count);
-        let after: &mut [f64] = if SOFTENS {
-            &mut worst[1..][..count]
-        } else {
-            &mut []
-        };
+        let before = inside::<SOFTENS>(&row.damage.worst[kind], count);
+        let after = inside_mut::<SOFTENS>(&mut damage.worst[kind], count);
+        let measures = inside_mut::<SOFTENS>(&mut damage.measure[kind], count);
         let softening = if SOFTENS { self.softening } else { None };
         for i in 0..count {
             let a = Pose {
@@ -239,6 +238,7 @@ impl Pair<'_> {
             moment[i] = found.moment;
             if SOFTENS {
                 after[i] = found.worst;
+                measures[i] = found.measure;
             }
         }
     }
@@ -257,4 +257,14 @@ pub(super) fn offset(kind: usize, odd: usize) -> isize {
 #[inline(always)]
 fn inside<const IS_THERE: bool>(array: &[f64], count: usize) -> &[f64] {
     if IS_THERE { &array[1..][..count] } else { &[] }
+}
+
+/// The same of an array that is written.
+#[inline(always)]
+fn inside_mut<const IS_THERE: bool>(array: &mut [f64], count: usize) -> &mut [f64] {
+    if IS_THERE {
+        &mut array[1..][..count]
+    } else {
+        &mut []
+    }
 }

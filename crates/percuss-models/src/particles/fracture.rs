@@ -85,12 +85,11 @@ impl Softening {
         (spacing / self.per_square).sqrt()
     }
 
-    /// Elongation of a bond, with its shear, in those at which it starts to soften; 0 under pressure.
+    /// Deformation of both springs of a bond, in elongations at which it starts to soften.
     #[inline(always)]
     pub(super) fn measure(&self, rest: f64, elongation: f64, slide: f64) -> f64 {
         let square = elongation * elongation + self.ratio * slide * slide;
-        let measure = (square * self.per_square / rest).sqrt();
-        if elongation > 0.0 { measure } else { 0.0 }
+        (square * self.per_square / rest).sqrt()
     }
 
     /// Part of its springs that a bond still has.
@@ -100,9 +99,14 @@ impl Softening {
         if worst > 1.0 { left } else { 1.0 }
     }
 
-    /// Energy that the softening of a bond has taken [J per m]; `normal` is the stiffness of its normal spring.
-    pub(super) fn energy(&self, rest: f64, normal: f64, worst: f64) -> f64 {
-        let part = ((worst.min(self.end) - 1.0) / (self.end - 1.0)).max(0.0);
-        0.5 * normal * rest / self.per_square * self.end * part
+    /// Energy that the softening of a bond takes between two steps [J per m], of the deformations and largest elongations then;
+    /// `normal` is the stiffness of its normal spring.
+    ///
+    /// It is the work of the mean of both forces less what the springs store: `½ k e₁ e₂ (D₂ − D₁)`. In steady growth this is the
+    /// integral of the law, whatever the step.
+    #[inline(always)]
+    pub(super) fn taken(&self, rest: f64, normal: f64, from: [f64; 2], to: [f64; 2]) -> f64 {
+        let gone = self.integrity(from[1]) - self.integrity(to[1]);
+        0.5 * normal * rest / self.per_square * from[0] * to[0] * gone
     }
 }

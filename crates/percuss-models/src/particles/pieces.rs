@@ -16,7 +16,7 @@ impl Body {
     /// Whether a bond carries no tension any more.
     pub(super) fn is_broken(&self, (row, place, kind): (usize, usize, usize)) -> bool {
         let end = self.softening.map_or(f64::INFINITY, |law| law.end);
-        let worst = self.state[row].worst[kind].get(place);
+        let worst = self.state[row].damage.worst[kind].get(place);
         worst.is_some_and(|worst| *worst >= end)
     }
 
@@ -48,7 +48,7 @@ impl Body {
             let (row, place, kind) = bond;
             let weight = self.weight(bond);
             all += weight;
-            left += weight * law.integrity(self.state[row].worst[kind][place]);
+            left += weight * law.integrity(self.state[row].damage.worst[kind][place]);
         }
         if all > 0.0 { 1.0 - left / all } else { 0.0 }
     }

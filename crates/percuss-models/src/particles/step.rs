@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::{
-    body::{Body, RowMake, RowMotion, RowState},
+    body::{Body, Damage, RowMake, RowMotion, RowState},
     bonds::{BondForce, Forces, Pair, Pose, Rest, RowForces, Springs, bond, offset},
     lattice::DIRECTIONS,
 };
@@ -98,7 +98,8 @@ impl pulp::NullaryFnOnce for Slice<'_> {
             );
             if body.softening.is_some() {
                 // What was the row's own is what is above the next one.
-                std::mem::swap(&mut state.worst, &mut forces.above.worst);
+                std::mem::swap(&mut state.damage, &mut forces.above.damage);
+                state.lost = body.state[row].lost + forces.lost;
             }
         }
         support
@@ -110,6 +111,8 @@ struct Sweep {
     above: RowForces,
     own: RowForces,
     total: Forces,
+    /// Energy that the softening of the row's bonds takes in the step that ends now [J per m].
+    lost: f64,
 }
 
 impl Sweep {
@@ -123,6 +126,7 @@ impl Sweep {
             above,
             own: RowForces::new(body.stride, body.softening.is_some()),
             total: Forces::new(body.stride),
+            lost: 0.0,
         }
     }
 
@@ -135,6 +139,7 @@ impl Sweep {
             self.total.x[load.place] += load.force[0];
             self.total.z[load.place] += load.force[1];
         }
+        self.lost = body.loss(row, &self.own.damage);
         std::mem::swap(&mut self.above, &mut self.own);
     }
 }
@@ -288,7 +293,10 @@ impl Body {
             total.z.fill(0.0);
         }
         let (make, motion) = (&self.rows[row], &self.motion[row]);
-        let mut sums = BodySums::default();
+        let mut sums = BodySums {
+            fracture: self.state[row].lost + sweep.lost,
+            ..BodySums::default()
+        };
         for place in 1..self.stride - 1 {
             let mass = make.mass[place];
             if mass == 0.0 {
@@ -307,7 +315,6 @@ impl Body {
                 if weight > 0.0 {
                     let found = self.bond_of(row, place, kind);
                     sums.elastic += found.energy;
-                    sums.fracture += self.fracture_energy((row, place, kind), found.worst);
                 }
             }
         }
@@ -335,7 +342,7 @@ impl Body {
         let (a, b) = (pose(row, place), pose(other_row, other));
         let (softening, rest) = (self.softening.as_ref(), self.rest(row, place, kind));
         let worst = match softening {
-            Some(_) => self.state[row].worst[kind][place],
+            Some(_) => self.state[row].damage.worst[kind][place],
             None => 0.0,
         };
         bond(&self.springs(), softening, rest, worst, a, b)
@@ -358,13 +365,28 @@ impl Body {
         }
     }
 
-    /// Energy that the softening of a bond has taken [J per m].
-    fn fracture_energy(&self, (row, place, kind): (usize, usize, usize), worst: f64) -> f64 {
+    /// Energy that softening takes from the bonds of a row in the step that ends with a damage [J per m].
+    fn loss(&self, row: usize, damage: &Damage) -> f64 {
         let Some(softening) = &self.softening else {
             return 0.0;
         };
-        let rest = self.rest(row, place, kind);
-        softening.energy(rest.length, rest.weight * self.lattice.normal, worst)
+        let before = &self.state[row].damage;
+        let mut lost = 0.0;
+        for kind in 0..3 {
+            let (old, new) = (&before.worst[kind], &damage.worst[kind]);
+            for place in 1..self.stride - 1 {
+                // Few bonds soften in a step.
+                if new[place] <= old[place] || new[place] <= 1.0 {
+                    continue;
+                }
+                let rest = self.rest(row, place, kind);
+                let normal = rest.weight * self.lattice.normal;
+                let from = [before.measure[kind][place], old[place]];
+                let to = [damage.measure[kind][place], new[place]];
+                lost += softening.taken(rest.length, normal, from, to);
+            }
+        }
+        lost
     }
 
     /// Row and place of the second particle of a bond.
