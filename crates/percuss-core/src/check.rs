@@ -249,6 +249,8 @@ pub mod limits {
     pub const BRITTLE_ENERGY: Limits = limits(1e-2, 1e6);
     /// Tensile strength of a brittle material [Pa].
     pub const TENSILE_STRENGTH: Limits = limits(1e4, 2e10);
+    /// Largest tensile strength of a brittle material over its Young's modulus.
+    pub const STRENGTH_OVER_MODULUS: f64 = 0.1;
     /// Length `E G/f²` of a brittle material [m].
     pub const CHARACTERISTIC_LENGTH: Limits = limits(1e-7, 100.0);
     /// Fraction of the unbalanced force; at 1 nothing would move.

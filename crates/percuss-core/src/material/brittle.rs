@@ -38,6 +38,18 @@ impl Brittle {
             self.tensile_strength,
             limits::TENSILE_STRENGTH,
         );
+        // Even bonds between atoms break at about a tenth of the modulus.
+        let (strength, most) = (
+            self.tensile_strength,
+            limits::STRENGTH_OVER_MODULUS * youngs_modulus.si(),
+        );
+        if strength.si() > most {
+            check.fail(
+                "tensile_strength",
+                format!("tensile_strength = {strength} is more than a tenth of youngs_modulus = {youngs_modulus}"),
+                "no solid is as strong: is one of them in another unit?",
+            );
+        }
         let length = self.characteristic_length(youngs_modulus.si());
         let allowed = limits::CHARACTERISTIC_LENGTH;
         if !(allowed.min..=allowed.max).contains(&length) {

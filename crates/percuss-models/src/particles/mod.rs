@@ -2,6 +2,7 @@
 
 mod body;
 mod bonds;
+mod energy;
 mod fields;
 mod fracture;
 mod lattice;

@@ -270,9 +270,13 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         if self.state.largest_stretch <= LARGEST_STRETCH {
             return Ok(());
         }
+        let why = match self.body.softening {
+            Some(_) => "no spring stands for so large a strain of what is still whole",
+            None => "the solid would break, and the bonds of this run do not",
+        };
         Err(self.clock().failure(
             format!(
-                "a bond is stretched or shortened by {:.0} % of its length: the solid would break, and the bonds of this run do not,",
+                "a bond is stretched or shortened by {:.0} % of its length: {why},",
                 100.0 * self.state.largest_stretch
             ),
             "lower `projectile.impact_velocity`, blunt the nose, or use another model".to_owned(),

@@ -3,14 +3,14 @@
 use rayon::prelude::*;
 
 use super::{
-    body::{Body, Damage, RowMake, RowMotion, RowState},
+    body::{Body, RowMake, RowMotion, RowState},
     bonds::{BondForce, Forces, Pair, Pose, Rest, RowForces, Springs, bond, offset},
     lattice::DIRECTIONS,
 };
 use crate::random::unit;
 
 /// Rows that one task takes at least, and particles below which one task takes all.
-const LEAST_ROWS: usize = 8;
+pub(super) const LEAST_ROWS: usize = 8;
 const SMALL: usize = 4096;
 
 /// Rounds of the search for the largest frequency, what they may leave, and the random numbers that it starts from.
@@ -107,17 +107,17 @@ impl pulp::NullaryFnOnce for Slice<'_> {
 }
 
 /// Forces of one row after the other.
-struct Sweep {
+pub(super) struct Sweep {
     above: RowForces,
     own: RowForces,
-    total: Forces,
+    pub(super) total: Forces,
     /// Energy that the softening of the row's bonds takes in the step that ends now [J per m].
-    lost: f64,
+    pub(super) lost: f64,
 }
 
 impl Sweep {
     #[inline(always)]
-    fn new(body: &Body, springs: &Springs, first: usize) -> Self {
+    pub(super) fn new(body: &Body, springs: &Springs, first: usize) -> Self {
         let mut above = RowForces::new(body.stride, body.softening.is_some());
         if first > 0 {
             body.row_forces(springs, first - 1, &mut above);
@@ -131,7 +131,7 @@ impl Sweep {
     }
 
     #[inline(always)]
-    fn next(&mut self, body: &Body, springs: &Springs, row: usize, loads: &[Load]) {
+    pub(super) fn next(&mut self, body: &Body, springs: &Springs, row: usize, loads: &[Load]) {
         body.row_forces(springs, row, &mut self.own);
         self.total.sum(row % 2, &self.own, &self.above);
         let start = loads.partition_point(|load| load.row < row);
@@ -266,69 +266,6 @@ impl Body {
         }
     }
 
-    /// Energies now, the velocities taken half a step on under the same loads.
-    pub(super) fn sums(&self, step: f64, loads: &[Load]) -> BodySums {
-        let rows: Vec<BodySums> = (0..self.rows.len())
-            .into_par_iter()
-            .with_min_len(LEAST_ROWS)
-            .map(|row| self.row_sums(row, step, loads))
-            .collect();
-        let mut sums = BodySums::default();
-        for row in rows {
-            sums.kinetic += row.kinetic;
-            sums.elastic += row.elastic;
-            sums.fracture += row.fracture;
-        }
-        sums
-    }
-
-    /// Kinetic energy as `½ m v₋·v₊` of the velocities half a step before and after, with which leapfrog conserves the energy of
-    /// linear springs exactly.
-    fn row_sums(&self, row: usize, step: f64, loads: &[Load]) -> BodySums {
-        let springs = self.springs();
-        let mut sweep = Sweep::new(self, &springs, row);
-        sweep.next(self, &springs, row, loads);
-        let mut total = sweep.total;
-        if self.is_held(row) {
-            total.z.fill(0.0);
-        }
-        let (make, motion) = (&self.rows[row], &self.motion[row]);
-        let mut sums = BodySums {
-            fracture: self.state[row].lost + sweep.lost,
-            ..BodySums::default()
-        };
-        for place in 1..self.stride - 1 {
-            let mass = make.mass[place];
-            if mass == 0.0 {
-                continue;
-            }
-            let inertia = 1.0 / make.inverse_inertia[place];
-            for (mass, speed, force) in [
-                (mass, motion.x[place], total.x[place]),
-                (mass, motion.z[place], total.z[place]),
-                (inertia, motion.spin[place], total.moment[place]),
-            ] {
-                sums.kinetic += 0.5 * speed * (mass * speed + step * force);
-            }
-            for kind in 0..3 {
-                let weight = make.weights[kind][place];
-                if weight > 0.0 {
-                    let found = self.bond_of(row, place, kind);
-                    sums.elastic += found.energy;
-                }
-            }
-        }
-        sums
-    }
-
-    /// Momentum along the direction of impact half a step ago [N s per m].
-    pub(super) fn momentum(&self) -> f64 {
-        let rows = self.rows.iter().zip(&self.motion);
-        rows.flat_map(|(make, motion)| make.mass.iter().zip(&motion.z))
-            .map(|(mass, velocity)| mass * velocity)
-            .sum()
-    }
-
     /// Force and energy of one bond.
     pub(super) fn bond_of(&self, row: usize, place: usize, kind: usize) -> BondForce {
         let (other_row, other) = self.other_end(row, place, kind);
@@ -365,43 +302,11 @@ impl Body {
         }
     }
 
-    /// Energy that softening takes from the bonds of a row in the step that ends with a damage [J per m].
-    fn loss(&self, row: usize, damage: &Damage) -> f64 {
-        let Some(softening) = &self.softening else {
-            return 0.0;
-        };
-        let before = &self.state[row].damage;
-        let mut lost = 0.0;
-        for kind in 0..3 {
-            let (old, new) = (&before.worst[kind], &damage.worst[kind]);
-            for place in 1..self.stride - 1 {
-                // Few bonds soften in a step.
-                if new[place] <= old[place] || new[place] <= 1.0 {
-                    continue;
-                }
-                let rest = self.rest(row, place, kind);
-                let normal = rest.weight * self.lattice.normal;
-                let from = [before.measure[kind][place], old[place]];
-                let to = [damage.measure[kind][place], new[place]];
-                lost += softening.taken(rest.length, normal, from, to);
-            }
-        }
-        lost
-    }
-
     /// Row and place of the second particle of a bond.
     pub(super) fn other_end(&self, row: usize, place: usize, kind: usize) -> (usize, usize) {
         let other = place.saturating_add_signed(offset(kind, row % 2));
         (row + usize::from(kind > 0), other)
     }
-}
-
-/// Energies [J per m].
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct BodySums {
-    pub(super) kinetic: f64,
-    pub(super) elastic: f64,
-    pub(super) fracture: f64,
 }
 
 /// Leapfrog of the particles of a row.

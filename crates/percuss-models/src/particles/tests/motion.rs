@@ -5,9 +5,10 @@ use crate::{
     options::Space,
     particles::{
         body::{Body, Rows},
+        energy::BodySums,
         lattice::ROW,
         packing::Packing,
-        step::{BodySums, Load},
+        step::Load,
     },
 };
 
