@@ -32,6 +32,10 @@ pub struct ParticlesOptions {
     pub fracture: Option<bool>,
     /// Elongation at which a bond has failed over that at which it starts to soften.
     pub softening: Option<f64>,
+    /// Part of the velocity with which two pieces that collide part.
+    pub restitution: Option<f64>,
+    /// Coefficient of friction between pieces.
+    pub friction: Option<f64>,
     /// Time step as a part of the largest stable one.
     pub courant: Option<f64>,
     /// Time at which a run is ended [s]; long enough for the case to end by itself when not given.
@@ -85,6 +89,14 @@ const SOFTENING: Limits = Limits {
     max: 1e4,
 };
 
+/// Restitution of pieces: below it the force of a contact would be no spring any more.
+const RESTITUTION: Limits = Limits {
+    min: 0.05,
+    max: 1.0,
+};
+/// Coefficients of friction.
+const FRICTION: Limits = Limits { min: 0.0, max: 2.0 };
+
 defaults! { ParticlesOptions, particles_in_schema {
     /// Plane in which the bodies deform.
     space: Space = Space::PlaneStrain;
@@ -96,6 +108,10 @@ defaults! { ParticlesOptions, particles_in_schema {
     amplitude: f64 = 0.3;
     /// Seed of an irregular packing.
     seed: u64 = 1;
+    /// Part of the velocity with which two pieces that collide part.
+    restitution: f64 = 0.9;
+    /// Coefficient of friction between pieces.
+    friction: f64 = 0.3;
     depending fracture: "`true` where the material of the lattice has a table `fracture`, otherwise `false`";
     depending packing: "`\"irregular\"` where bonds break, otherwise `\"hexagonal\"`";
     depending softening: "that which has both the fracture energy and the tensile strength of the material, and at least 3";
@@ -118,6 +134,8 @@ impl ParticlesOptions {
             ("courant", self.courant, COURANT),
             ("amplitude", self.amplitude, AMPLITUDE),
             ("softening", self.softening, SOFTENING),
+            ("restitution", self.restitution, RESTITUTION),
+            ("friction", self.friction, FRICTION),
         ] {
             if let Some(number) = number {
                 check.number(key, number, limits);
@@ -153,12 +171,18 @@ impl ParticlesOptions {
                 );
             }
         }
-        if self.softening.is_some() && self.fracture == Some(false) {
-            check.fail(
-                "softening",
-                "`softening` has no effect: `fracture = false`, and no bond breaks",
-                "remove one of the two keys",
-            );
+        for (key, given) in [
+            ("softening", self.softening.is_some()),
+            ("restitution", self.restitution.is_some()),
+            ("friction", self.friction.is_some()),
+        ] {
+            if given && self.fracture == Some(false) {
+                check.fail(
+                    key,
+                    format!("`{key}` has no effect: `fracture = false`, and no bond breaks"),
+                    "remove one of the two keys",
+                );
+            }
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod body;
 mod bonds;
+mod debris;
 mod energy;
 mod fields;
 mod fracture;
@@ -60,7 +61,7 @@ impl Model for Particles {
                 notes: &[
                     "plane strain or plane stress: the projectile is a strip, and results are per metre of width",
                     "a rigid projectile on one elastic plate, or an elastic strip on a rigid wall; bonds break where the material has \
-                     `fracture`; no plastic flow and no friction yet, and broken pieces meet only where they were bonded",
+                     `fracture`, and pieces meet with friction; no plastic flow, and no friction of the projectile",
                     "Poisson's ratio of the lattice up to 1/4 in plane strain and 1/3 in plane stress",
                     "never a first choice: for what is axisymmetric use `axi`",
                 ],

@@ -34,7 +34,7 @@ impl Body {
         ]
     }
 
-    fn weight(&self, (row, place, kind): (usize, usize, usize)) -> f64 {
+    pub(super) fn weight(&self, (row, place, kind): (usize, usize, usize)) -> f64 {
         self.rows[row].weights[kind][place]
     }
 

@@ -194,9 +194,6 @@ fn fracture_warnings(run: &PlaneImpact<'_>, softenings: &setup::Softenings) -> V
             "paths and pieces of cracks scatter with the packing: run several values of `particles.seed`, and give mean and spread"
                 .to_owned(),
         );
-        warnings.push(
-            "broken pieces meet only along the bonds that held them: pieces that fly into others pass through them".to_owned(),
-        );
     }
     warnings
 }

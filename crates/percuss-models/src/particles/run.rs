@@ -6,8 +6,10 @@ use rayon::prelude::*;
 
 use super::{
     body::Body,
+    debris::{ContactLaw, Debris},
     fields, results, setup,
     shape::{Contact, Rigid, contact, stiffness},
+    step::Load,
 };
 use crate::{
     Error, Scenario,
@@ -45,6 +47,10 @@ pub(crate) struct PlaneImpact<'a> {
     pub(super) state: State,
     pub(super) time_step: f64,
     contact: Contact,
+    debris: Debris,
+    law: ContactLaw,
+    /// Forces of both, in the order of the rows.
+    loads: Vec<Load>,
     initial: (f64, f64),
 }
 
@@ -91,6 +97,24 @@ impl PlaneImpact<'_> {
 
     fn find_contact(&mut self) {
         self.contact = contact(&self.body, self.rigid, self.state.tip);
+        self.loads.clone_from(&self.contact.loads);
+        let of_pieces = self.debris.loads(&self.body, &self.law);
+        self.loads.extend(of_pieces);
+        self.loads.sort_by_key(|load| (load.row, load.place));
+    }
+
+    /// Contact of pieces after a step: once a bond is broken, its ends and the faces of the body are watched.
+    fn meet_pieces(&mut self) {
+        let (body, debris) = (&self.body, &mut self.debris);
+        if body.softening.is_none() {
+            return;
+        }
+        let is_due = self.state.step.is_multiple_of(INTERVAL)
+            && (!debris.is_empty() || body.broken_bonds() > 0);
+        if is_due || debris.has_moved(body) {
+            debris.search(body, &self.law);
+        }
+        debris.update(body, &self.law, self.time_step);
     }
 
     /// Largest stretch of a bond and largest tension of a particle, now or before.
@@ -160,6 +184,9 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
                 ..State::default()
             },
             contact: Contact::default(),
+            debris: Debris::default(),
+            law: setup::contact_law(scenario, &body),
+            loads: Vec::new(),
             initial: (0.5 * mass * speed * speed, mass * speed),
             body,
         };
@@ -179,7 +206,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
 
     fn advance(&mut self) -> Result<(), NumericalError> {
         let step = self.time_step;
-        self.state.support += self.body.advance(step, &self.contact.loads);
+        self.state.support += self.body.advance(step, &self.loads);
         match self.rigid {
             Rigid::Wall => self.state.support -= step * self.contact.force,
             Rigid::Projectile(_) => {
@@ -189,6 +216,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         }
         self.state.step += 1;
         self.state.time += step;
+        self.meet_pieces();
         self.find_contact();
         if !self.contact.loads.is_empty() {
             self.state.last_contact = self.state.time;
@@ -225,11 +253,13 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
     }
 
     fn energy(&self) -> EnergyLedger {
-        let sums = self.body.sums(self.time_step, &self.contact.loads);
-        let elastic = sums.elastic + self.contact.energy;
+        let sums = self.body.sums(self.time_step, &self.loads);
+        let of_pieces = self.debris.energy(&self.body, &self.law);
+        let elastic = sums.elastic + self.contact.energy + of_pieces;
         let mut energy = EnergyLedger::default();
         energy.initial = self.initial.0;
         energy.fracture = sums.fracture;
+        energy.contact = self.debris.lost;
         match self.rigid {
             Rigid::Wall => {
                 energy.kinetic_projectile = sums.kinetic;
@@ -348,6 +378,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         archive.item(&mut self.state)?;
         archive.item(&mut self.body.state)?;
         archive.item(&mut self.body.motion)?;
+        archive.item(&mut self.debris)?;
         if archive.is_read() {
             self.find_contact();
         }

@@ -2,6 +2,7 @@
 
 use super::{
     body::{Body, Rows},
+    debris::ContactLaw,
     fracture::{self, LEAST_SOFTENING, Softening, Toughness},
     lattice::{Lattice, ROW, Solid, poissons_ratio_refusal},
     packing::{Moved, Packing},
@@ -189,6 +190,18 @@ pub(super) fn softenings(scenario: &Scenario, lattice: &Lattice) -> Option<Softe
         used: options.softening.unwrap_or(auto),
         exact,
     })
+}
+
+/// Contact of the pieces of a case's lattice.
+pub(super) fn contact_law(scenario: &Scenario, body: &Body) -> ContactLaw {
+    let options = &scenario.options.particles;
+    let ratio = solid(scenario).poissons_ratio;
+    ContactLaw::new(
+        &body.lattice,
+        ratio,
+        options.restitution(),
+        options.friction(),
+    )
 }
 
 /// The lattice at the moment of impact, and the rigid body that it meets.

@@ -18,12 +18,13 @@ const FREQUENCY_ROUNDS: usize = 30;
 const FREQUENCY_MARGIN: f64 = 1.05;
 const FREQUENCY_STREAM: u64 = 0xf1e1d;
 
-/// Force of a contact on a particle [N per m].
+/// Force [N per m] and moment [N m per m] of a contact on a particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Load {
     pub(super) row: usize,
     pub(super) place: usize,
     pub(super) force: [f64; 2],
+    pub(super) moment: f64,
 }
 
 impl Forces {
@@ -138,6 +139,7 @@ impl Sweep {
         for load in loads[start..].iter().take_while(|load| load.row == row) {
             self.total.x[load.place] += load.force[0];
             self.total.z[load.place] += load.force[1];
+            self.total.moment[load.place] += load.moment;
         }
         self.lost = body.loss(row, &self.own.damage);
         std::mem::swap(&mut self.above, &mut self.own);

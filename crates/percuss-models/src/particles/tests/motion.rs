@@ -70,6 +70,7 @@ fn stretch(body: &mut Body, middle: [f64; 2], spin: f64, step: f64) {
                     of(x - middle[0], motion.x[place]),
                     of(z - middle[1], motion.z[place]),
                 ],
+                moment: 0.0,
             }
         };
         let loads: Vec<Load> = particles.iter().map(load).collect();
