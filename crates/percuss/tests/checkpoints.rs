@@ -52,7 +52,7 @@ const LATTICE: &str = r#"
 const PIECES: &str = r#"
     projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "20 m/s", nose = "hemisphere" }
     target = { material = "brittle", thickness = "5 mm", back_face = "free" }
-    particles = { spacing = "0.7 mm", width = "40 mm" }
+    particles = { spacing = "0.7 mm", width = "40 mm", end_time = "40 us" }
     [materials.hard]
     name = "Elastic"
     density = "2500 kg/m3"
