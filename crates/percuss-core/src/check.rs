@@ -245,6 +245,14 @@ pub mod limits {
     pub const FAILURE_TIME: Limits = limits(1e-12, 1.0);
     /// Energy that opens a crack, per area [J/m2]; 0 parts at once.
     pub const FRACTURE_ENERGY: Limits = limits(0.0, 1e7);
+    /// Fracture energy of a material, per area [J/m2].
+    pub const BRITTLE_ENERGY: Limits = limits(1e-2, 1e6);
+    /// Tensile strength of a brittle material [Pa].
+    pub const TENSILE_STRENGTH: Limits = limits(1e4, 2e10);
+    /// Largest tensile strength of a brittle material over its Young's modulus.
+    pub const STRENGTH_OVER_MODULUS: f64 = 0.1;
+    /// Length `E G/f²` of a brittle material [m].
+    pub const CHARACTERISTIC_LENGTH: Limits = limits(1e-7, 100.0);
     /// Fraction of the unbalanced force; at 1 nothing would move.
     pub const LOCAL_DAMPING: Limits = limits(0.0, 0.95);
     /// Failure strains D₁ and D₂ of a Johnson–Cook damage law; D₁ alone may be negative.

@@ -14,5 +14,5 @@ pub mod particles;
 use percuss::{case, compare, summary};
 use percuss_core::{
     Error, Refusal, Scenario, error, fragments, history, lanes, ledger, material, options, outcome,
-    power, problem, regime, resistance, scenario, shapes, solver, units, validity,
+    power, problem, random, regime, resistance, scenario, shapes, solver, units, validity,
 };

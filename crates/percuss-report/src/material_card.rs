@@ -62,6 +62,7 @@ impl MaterialCard {
         strength(material, &mut card);
         equation_of_state(material, &mut card);
         damage(material, &mut card);
+        fracture(material, &mut card);
         validity(material, &mut card);
         provenance(material, &mut card);
         rivals(entry, library, &mut card);
@@ -298,6 +299,23 @@ fn damage(material: &Material, card: &mut MaterialCard) {
     }
     if !damage.sources.is_empty() {
         card.row("from", &damage.sources.join(", "));
+    }
+}
+
+fn fracture(material: &Material, card: &mut MaterialCard) {
+    let Some(fracture) = &material.fracture else {
+        return;
+    };
+    card.heading("fracture: energy and strength");
+    card.row("fracture energy", &fracture.energy.to_string());
+    card.row("tensile strength", &fracture.tensile_strength.to_string());
+    let length = fracture.characteristic_length(material.youngs_modulus.si());
+    card.row("E G/f²", &format!("{} mm", significant(length * 1e3, 3)));
+    if !fracture.note.is_empty() {
+        card.paragraph(&fracture.note);
+    }
+    if !fracture.sources.is_empty() {
+        card.row("from", &fracture.sources.join(", "));
     }
 }
 

@@ -214,6 +214,7 @@ cases! {
     elastic_bars: "elastic-bars",
     lattice_strip_on_wall: "lattice-strip-on-wall",
     rigid_on_glass_plane: "rigid-on-glass-plane",
+    cracks_in_glass_plate: "cracks-in-glass-plate",
     spall_two_plates: "spall-two-plates",
     spall_delayed: "spall-delayed",
     torn_off_by_johnson_cook: "torn-off-by-johnson-cook",

@@ -21,6 +21,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("planar impact with spall", "fdm", SPALL),
     ("plug that damage cuts out", "axi", CUT),
     ("lattice under a rigid nose", "particles", LATTICE),
+    ("pieces of a lattice", "particles", PIECES),
 ];
 
 const COLUMN: &str = r#"
@@ -47,6 +48,24 @@ const LATTICE: &str = r#"
     youngs_modulus = "70 GPa"
     poissons_ratio = 0.22
     strength.elastic = {}
+"#;
+const PIECES: &str = r#"
+    projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "20 m/s", nose = "hemisphere" }
+    target = { material = "brittle", thickness = "5 mm", back_face = "free" }
+    particles = { spacing = "0.7 mm", width = "40 mm", end_time = "40 us" }
+    [materials.hard]
+    name = "Elastic"
+    density = "2500 kg/m3"
+    youngs_modulus = "70 GPa"
+    poissons_ratio = 0.22
+    strength.elastic = {}
+    [materials.brittle]
+    name = "Glass"
+    density = "2500 kg/m3"
+    youngs_modulus = "70 GPa"
+    poissons_ratio = 0.22
+    strength.elastic = {}
+    fracture = { energy = "8 J/m2", tensile_strength = "40 MPa" }
 "#;
 const PLUG: &str = include_str!("../../../cases/weldox-460e-12mm-blunt/scenario.toml");
 const FAILURE: &str = include_str!("../../../cases/spall-two-plates/scenario.toml");

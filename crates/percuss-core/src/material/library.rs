@@ -21,6 +21,7 @@ macro_rules! files {
 /// Built-in material files. Adding one is one file in `materials/` and one line here.
 const FILES: &[(&str, &str)] = files![
     "borvik2002.toml",
+    "brittle.toml",
     "floresjohnson2011.toml",
     "forrestal1994.toml",
     "holtz.toml",

@@ -1,5 +1,6 @@
 //! Materials: elastic constants, a strength law and where every number comes from.
 
+mod brittle;
 mod calibrated;
 mod cavity;
 mod damage;
@@ -27,6 +28,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::units::{Density, Pressure, SpecificHeat, StrainRate, Temperature};
 
+pub use brittle::Brittle;
 pub use calibrated::Calibrated;
 pub use cavity::{cavity_expansion_pressure, cylindrical_cavity_pressure};
 pub use damage::{Damage, DamageState, PreparedDamage};
@@ -119,6 +121,9 @@ pub struct Material {
     /// Damage by plastic strain; models use it where they are asked to.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damage: Option<Damage>,
+    /// Fracture energy and tensile strength; models of cracks need them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fracture: Option<Brittle>,
     /// The strength law.
     pub strength: Strength,
 }

@@ -46,6 +46,9 @@ impl Material {
                 self.melting_temperature.is_some(),
             );
         }
+        if let Some(fracture) = &self.fracture {
+            fracture.check(&mut check.within("fracture"), self.youngs_modulus);
+        }
         if let Some(hardness) = self.brinell_hardness {
             check.number("brinell_hardness", hardness, limits::BRINELL_HARDNESS);
         }

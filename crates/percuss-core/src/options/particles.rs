@@ -22,6 +22,20 @@ pub struct ParticlesOptions {
     pub spacing: Option<Length>,
     /// Width of the target across the direction of impact [m].
     pub width: Option<Length>,
+    /// Where the particles stand.
+    pub packing: Option<PackingKind>,
+    /// How far an irregular packing moves them at most, in spacings.
+    pub amplitude: Option<f64>,
+    /// Seed of an irregular packing: another one gives another specimen of the same solid.
+    pub seed: Option<u64>,
+    /// Whether bonds break: the material of the lattice needs a table `fracture`.
+    pub fracture: Option<bool>,
+    /// Elongation at which a bond has failed over that at which it starts to soften.
+    pub softening: Option<f64>,
+    /// Part of the velocity with which two pieces that collide part.
+    pub restitution: Option<f64>,
+    /// Coefficient of friction between pieces.
+    pub friction: Option<f64>,
     /// Time step as a part of the largest stable one.
     pub courant: Option<f64>,
     /// Time at which a run is ended [s]; long enough for the case to end by itself when not given.
@@ -41,6 +55,16 @@ pub enum Space {
     PlaneStress,
 }
 
+/// Where particles stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PackingKind {
+    /// On a regular lattice, whose rows are along the struck face: cracks like to follow its directions.
+    Hexagonal,
+    /// Moved from it at random.
+    Irregular,
+}
+
 impl Space {
     /// The plane in words.
     pub fn describe(self) -> &'static str {
@@ -57,6 +81,22 @@ const COURANT: Limits = Limits {
     max: 0.9,
 };
 
+/// Distances of irregular packings, in spacings: beyond it triangles would be slivers.
+const AMPLITUDE: Limits = Limits { min: 0.0, max: 0.3 };
+/// Softening of bonds: at 1 they would break at once.
+const SOFTENING: Limits = Limits {
+    min: 1.05,
+    max: 1e4,
+};
+
+/// Restitution of pieces: below it the force of a contact would be no spring any more.
+const RESTITUTION: Limits = Limits {
+    min: 0.05,
+    max: 1.0,
+};
+/// Coefficients of friction.
+const FRICTION: Limits = Limits { min: 0.0, max: 2.0 };
+
 defaults! { ParticlesOptions, particles_in_schema {
     /// Plane in which the bodies deform.
     space: Space = Space::PlaneStrain;
@@ -64,6 +104,17 @@ defaults! { ParticlesOptions, particles_in_schema {
     courant: f64 = 0.5;
     /// Time steps after which a run is ended.
     max_steps: u64 = MAX_STEPS;
+    /// How far an irregular packing moves them at most, in spacings.
+    amplitude: f64 = 0.3;
+    /// Seed of an irregular packing.
+    seed: u64 = 1;
+    /// Part of the velocity with which two pieces that collide part.
+    restitution: f64 = 0.9;
+    /// Coefficient of friction between pieces.
+    friction: f64 = 0.3;
+    depending fracture: "`true` where the material of the lattice has a table `fracture`, otherwise `false`";
+    depending packing: "`\"irregular\"` where bonds break, otherwise `\"hexagonal\"`";
+    depending softening: "that which has both the fracture energy and the tensile strength of the material, and at least 3";
     depending spacing: "a tenth of the projectile's diameter, or of the target's thickness where that is less";
     depending width: "ten diameters of the projectile, or four thicknesses of the target where those are more";
 } }
@@ -79,9 +130,18 @@ impl ParticlesOptions {
                 check.quantity(key, length, limits);
             }
         }
-        if let Some(courant) = self.courant {
-            check.number("courant", courant, COURANT);
+        for (key, number, limits) in [
+            ("courant", self.courant, COURANT),
+            ("amplitude", self.amplitude, AMPLITUDE),
+            ("softening", self.softening, SOFTENING),
+            ("restitution", self.restitution, RESTITUTION),
+            ("friction", self.friction, FRICTION),
+        ] {
+            if let Some(number) = number {
+                check.number(key, number, limits);
+            }
         }
+        self.check_use(check);
         if let Some(time) = self.end_time {
             check.quantity("end_time", time, limits::TIME);
         }
@@ -90,6 +150,39 @@ impl ParticlesOptions {
         }
         if self.width.is_some() && !target.is_solid() {
             check.fail("width", "a rigid wall has no `width`", "remove the key");
+        }
+    }
+
+    /// Reports keys without effect.
+    fn check_use(&self, check: &mut Check<'_>) {
+        let irregular = match (self.packing, self.fracture) {
+            (Some(packing), _) => packing == PackingKind::Irregular,
+            (None, fracture) => fracture != Some(false),
+        };
+        for (key, given) in [
+            ("amplitude", self.amplitude.is_some()),
+            ("seed", self.seed.is_some()),
+        ] {
+            if given && !irregular {
+                check.fail(
+                    key,
+                    format!("`{key}` has no effect: the packing is \"hexagonal\""),
+                    "remove the key, or give `packing = \"irregular\"`",
+                );
+            }
+        }
+        for (key, given) in [
+            ("softening", self.softening.is_some()),
+            ("restitution", self.restitution.is_some()),
+            ("friction", self.friction.is_some()),
+        ] {
+            if given && self.fracture == Some(false) {
+                check.fail(
+                    key,
+                    format!("`{key}` has no effect: `fracture = false`, and no bond breaks"),
+                    "remove one of the two keys",
+                );
+            }
         }
     }
 }

@@ -2,7 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::lattice::{Lattice, ROW};
+use super::{
+    fracture::Softening,
+    lattice::{DIRECTIONS, Lattice, ROW},
+    packing::{Packing, facet_weight},
+};
 
 /// Displacements [m] and rotations of a row. A place before the first particle and places behind the last one stay at rest.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -13,6 +17,32 @@ pub(super) struct RowState {
     pub(super) cosine: Vec<f64>,
     /// Its sine.
     pub(super) sine: Vec<f64>,
+    /// Damage of the bonds that start in the row; empty where nothing breaks.
+    #[serde(default)]
+    pub(super) damage: Damage,
+    /// Energy that their softening has taken [J per m].
+    #[serde(default)]
+    pub(super) lost: f64,
+}
+
+/// Damage of the three kinds of bonds that start in a row.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Damage {
+    /// Their largest elongations, in those at which they start to soften.
+    pub(super) worst: [Vec<f64>; 3],
+    /// Their deformation a step ago, in the same unit.
+    pub(super) measure: [Vec<f64>; 3],
+}
+
+impl Damage {
+    /// Whole bonds of a row of a number of places.
+    pub(super) fn new(places: usize) -> Self {
+        let zeros = || [0, 1, 2].map(|_| vec![0.0; places]);
+        Self {
+            worst: zeros(),
+            measure: zeros(),
+        }
+    }
 }
 
 /// Velocities of a row, half a step behind its displacements.
@@ -33,8 +63,30 @@ pub(super) struct RowMake {
     pub(super) inverse_mass: Vec<f64>,
     /// One over the moment of inertia; 0 where there is no particle.
     pub(super) inverse_inertia: Vec<f64>,
-    /// Weights of the bonds that start in the row: half the number of triangles that share a bond.
+    /// Weights of the bonds that start in the row: half the number of triangles that share a bond, or what their dual facets are.
     pub(super) weights: [Vec<f64>; 3],
+    /// The bonds at rest, where particles are moved; otherwise empty.
+    pub(super) rests: [Rests; 3],
+    /// How far particles are moved from their places on the lattice [m]; otherwise empty.
+    pub(super) shift: [Vec<f64>; 2],
+}
+
+/// Bonds of a row at rest.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Rests {
+    /// Directions to their second particles.
+    pub(super) x: Vec<f64>,
+    pub(super) z: Vec<f64>,
+    /// Lengths [m].
+    pub(super) length: Vec<f64>,
+}
+
+impl RowMake {
+    /// Whether its particles stand beside the places of the lattice.
+    #[inline(always)]
+    pub(super) fn is_moved(&self) -> bool {
+        !self.shift[0].is_empty()
+    }
 }
 
 /// A body.
@@ -54,6 +106,8 @@ pub(super) struct Body {
     pub(super) held: bool,
     /// Area of all triangles [m2].
     pub(super) area: f64,
+    /// How bonds fail, if they do.
+    pub(super) softening: Option<Softening>,
 }
 
 /// Shape of the rows of a body.
@@ -71,10 +125,12 @@ fn stride(particles: usize) -> usize {
 }
 
 impl Body {
-    /// A strip of rows along the struck face, symmetric about `x = 0`, with its first row at a depth [m].
-    pub(super) fn strip(lattice: Lattice, rows: Rows, depth: f64) -> Self {
+    /// A strip of rows along the struck face, symmetric about `x = 0` but for its packing, with its first row at a depth [m].
+    pub(super) fn strip(lattice: Lattice, rows: Rows, depth: f64, packing: Packing) -> Self {
         let columns = |row: usize| rows.particles - row % 2;
-        Self::of_particles(lattice, rows, depth, |row, column| column < columns(row))
+        Self::of_particles(lattice, rows, depth, packing, |row, column| {
+            column < columns(row)
+        })
     }
 
     /// A body of the triangles of which all three particles are there.
@@ -82,6 +138,7 @@ impl Body {
         lattice: Lattice,
         rows: Rows,
         depth: f64,
+        packing: Packing,
         is_there: impl Fn(usize, usize) -> bool,
     ) -> Self {
         let stride = stride(rows.particles);
@@ -99,6 +156,7 @@ impl Body {
                     inverse_mass: zeros(),
                     inverse_inertia: zeros(),
                     weights: [zeros(), zeros(), zeros()],
+                    ..RowMake::default()
                 })
                 .collect(),
             state: vec![
@@ -107,6 +165,8 @@ impl Body {
                     z: zeros(),
                     cosine: vec![1.0; stride],
                     sine: zeros(),
+                    damage: Damage::default(),
+                    lost: 0.0,
                 };
                 rows.count
             ],
@@ -121,11 +181,24 @@ impl Body {
             next: Vec::new(),
             held: false,
             area: 0.0,
+            softening: None,
         };
         body.next.clone_from(&body.state);
         let at = |row: usize, place: usize| {
             (1..=rows.particles).contains(&place) && is_there(row, place - 1)
         };
+        if let Packing::Irregular(moved) = packing {
+            let spacing = lattice.spacing;
+            for row in 0..rows.count {
+                let of = |place: usize| match at(row, place) {
+                    true => moved.shift(spacing, rows, (row, place - 1)),
+                    false => [0.0; 2],
+                };
+                let shifts: Vec<[f64; 2]> = (0..stride).map(of).collect();
+                body.rows[row].shift = [0, 1].map(|axis| shifts.iter().map(|s| s[axis]).collect());
+            }
+            body.measure_bonds();
+        }
         for row in 0..rows.count.saturating_sub(1) {
             for place in 1..stride - 1 {
                 body.add_triangles(row, place, &at);
@@ -156,15 +229,69 @@ impl Body {
     }
 
     fn add_triangle(&mut self, corners: [(usize, usize); 3], bonds: [(usize, usize, usize); 3]) {
+        let spacing = self.lattice.spacing;
+        let of_lattice = 0.5 * ROW * spacing * spacing;
+        let is_moved = self.rows[0].is_moved();
+        let area = match is_moved {
+            true => self.triangle_area(corners),
+            false => of_lattice,
+        };
         // A particle inside has six triangles, and its mass is that of two.
-        let share = self.lattice.mass / 6.0;
+        let share = self.lattice.mass / 6.0 * (area / of_lattice);
         for (row, place) in corners {
             self.rows[row].mass[place] += share;
         }
         for (row, place, kind) in bonds {
-            self.rows[row].weights[kind][place] += 0.5;
+            let make = &mut self.rows[row];
+            make.weights[kind][place] += match is_moved {
+                true => facet_weight(area, make.rests[kind].length[place]),
+                false => 0.5,
+            };
         }
-        self.area += 0.5 * ROW * self.lattice.spacing * self.lattice.spacing;
+        self.area += area;
+    }
+
+    fn triangle_area(&self, corners: [(usize, usize); 3]) -> f64 {
+        let [a, b, c] = corners.map(|(row, place)| self.reference(row, place));
+        0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
+    }
+
+    /// Directions and lengths of all bonds between moved particles.
+    fn measure_bonds(&mut self) {
+        for row in 0..self.rows.len() {
+            let rests = [0, 1, 2].map(|kind| {
+                let mut rests = Rests::default();
+                for place in 0..self.stride {
+                    let (direction, length) = self.measured(row, place, kind);
+                    rests.x.push(direction[0]);
+                    rests.z.push(direction[1]);
+                    rests.length.push(length);
+                }
+                rests
+            });
+            self.rows[row].rests = rests;
+        }
+    }
+
+    fn measured(&self, row: usize, place: usize, kind: usize) -> ([f64; 2], f64) {
+        let (other_row, other) = self.other_end(row, place, kind);
+        let spacing = self.lattice.spacing;
+        if other_row >= self.rows.len() || other >= self.stride {
+            return (DIRECTIONS[kind], spacing);
+        }
+        let shift = |row: usize, place: usize| self.rows[row].shift.each_ref().map(|s| s[place]);
+        let (from, to) = (shift(row, place), shift(other_row, other));
+        let [x, z] = [0, 1].map(|axis| spacing * DIRECTIONS[kind][axis] + (to[axis] - from[axis]));
+        let length = (x * x + z * z).sqrt();
+        ([x / length, z / length], length)
+    }
+
+    /// Lets bonds fail.
+    pub(super) fn soften(&mut self, softening: Softening) {
+        self.softening = Some(softening);
+        for state in self.state.iter_mut().chain(&mut self.next) {
+            state.damage = Damage::new(self.stride);
+        }
     }
 
     fn finish(&mut self) {
@@ -183,9 +310,14 @@ impl Body {
     pub(super) fn reference(&self, row: usize, place: usize) -> [f64; 2] {
         let column = place as f64 - 1.0 + 0.5 * (row % 2) as f64;
         let spacing = self.lattice.spacing;
+        let make = &self.rows[row];
+        let [across, along] = match make.is_moved() {
+            true => [make.shift[0][place], make.shift[1][place]],
+            false => [0.0; 2],
+        };
         [
-            self.origin[0] + column * spacing,
-            self.origin[1] + row as f64 * ROW * spacing,
+            self.origin[0] + column * spacing + across,
+            self.origin[1] + row as f64 * ROW * spacing + along,
         ]
     }
 

@@ -1,6 +1,10 @@
 //! Forces of the bonds of a row of particles to their next neighbours.
 
-use super::{body::RowState, lattice::DIRECTIONS};
+use super::{
+    body::{Damage, RowMake, RowState},
+    fracture::Softening,
+    lattice::DIRECTIONS,
+};
 
 /// Smallest square of a bond's length, in squares of the spacing: what is no bond may have any length.
 const LEAST_SQUARE: f64 = 1e-12;
@@ -8,7 +12,7 @@ const LEAST_SQUARE: f64 = 1e-12;
 /// Constants of all bonds.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Springs {
-    /// Length at rest [m].
+    /// Length at rest on the regular lattice [m].
     pub(super) length: f64,
     /// Stiffness of the normal spring [N/m per m].
     pub(super) normal: f64,
@@ -25,6 +29,21 @@ pub(super) struct BondForce {
     pub(super) energy: f64,
     /// Elongation [m].
     pub(super) elongation: f64,
+    /// Largest elongation so far, in those at which the bond starts to soften.
+    pub(super) worst: f64,
+    /// Deformation of both springs, in the same unit.
+    pub(super) measure: f64,
+}
+
+/// A bond at rest.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rest {
+    /// Direction to its second particle.
+    pub(super) direction: [f64; 2],
+    /// Length [m].
+    pub(super) length: f64,
+    /// Share of its springs.
+    pub(super) weight: f64,
 }
 
 /// Displacement, and cosine and sine of the rotation of a particle.
@@ -38,16 +57,22 @@ pub(super) struct Pose {
 ///
 /// `V = ½ k_n (l − d)² + ½ k_s d² sin²γ`, where γ is the angle of the bond to its direction at rest, turned by the mean rotation of
 /// its ends. Differences of displacements alone enter, so that small strains keep all their digits.
+///
+/// A softening bond loses the part `1 − D` of its springs, except of the normal one under pressure; `worst` is the state of its damage.
 #[inline(always)]
 pub(super) fn bond(
     springs: &Springs,
-    direction: [f64; 2],
-    weight: f64,
+    softening: Option<&Softening>,
+    bond: Rest,
+    worst: f64,
     a: Pose,
     b: Pose,
 ) -> BondForce {
-    let rest = springs.length;
-    let [n_x, n_z] = direction;
+    let Rest {
+        direction: [n_x, n_z],
+        length: rest,
+        weight,
+    } = bond;
     let x = b.displacement[0] - a.displacement[0];
     let z = b.displacement[1] - a.displacement[1];
     // l² − d² = 2 d n·Δu + Δu².
@@ -63,8 +88,18 @@ pub(super) fn bond(
     let turned = [cosine * n_x - sine * n_z, sine * n_x + cosine * n_z];
     let sine_of_shear = (turned[0] * z - turned[1] * x - rest * sine) * inverse;
     let cosine_of_shear = turned[0] * along[0] + turned[1] * along[1];
-    let pull = weight * springs.normal * elongation;
-    let couple = weight * springs.shear * rest * rest * sine_of_shear * cosine_of_shear;
+    let (mut worst, mut normal, mut shear) =
+        (worst, weight * springs.normal, weight * springs.shear);
+    let mut measure = 0.0;
+    if let Some(softening) = softening {
+        measure = softening.measure(rest, elongation, rest * sine_of_shear);
+        worst = worst.max(if elongation > 0.0 { measure } else { 0.0 });
+        let integrity = softening.integrity(worst);
+        shear *= integrity;
+        normal *= if elongation > 0.0 { integrity } else { 1.0 };
+    }
+    let pull = normal * elongation;
+    let couple = shear * rest * rest * sine_of_shear * cosine_of_shear;
     let across = couple * inverse;
     BondForce {
         force: [
@@ -73,8 +108,10 @@ pub(super) fn bond(
         ],
         moment: 0.5 * couple,
         energy: 0.5 * pull * elongation
-            + 0.5 * weight * springs.shear * (rest * sine_of_shear) * (rest * sine_of_shear),
+            + 0.5 * shear * (rest * sine_of_shear) * (rest * sine_of_shear),
         elongation,
+        worst,
+        measure,
     }
 }
 
@@ -97,30 +134,113 @@ impl Forces {
     }
 }
 
-/// Forces of the three kinds of bonds that start in a row.
+/// Forces of the three kinds of bonds that start in a row, and the state of their damage where they soften.
 #[derive(Debug, Clone, Default)]
-pub(super) struct RowForces(pub(super) [Forces; 3]);
+pub(super) struct RowForces {
+    pub(super) of: [Forces; 3],
+    pub(super) damage: Damage,
+}
 
 impl RowForces {
     /// Without forces, for rows of a number of places.
-    pub(super) fn new(stride: usize) -> Self {
-        Self([0, 1, 2].map(|_| Forces::new(stride)))
+    pub(super) fn new(stride: usize, softens: bool) -> Self {
+        let places = if softens { stride } else { 0 };
+        Self {
+            of: [0, 1, 2].map(|_| Forces::new(stride)),
+            damage: Damage::new(places),
+        }
     }
+}
 
+/// A row of particles and the next one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pair<'a> {
+    pub(super) springs: &'a Springs,
+    pub(super) softening: Option<&'a Softening>,
+    /// 1 in an odd row, 0 in an even one.
+    pub(super) odd: usize,
+    pub(super) make: &'a RowMake,
+    pub(super) row: &'a RowState,
+    pub(super) next: &'a RowState,
+}
+
+impl Pair<'_> {
     /// Forces between a row and itself and the next one.
     #[inline(always)]
-    pub(super) fn compute(
-        &mut self,
-        springs: &Springs,
-        odd: usize,
-        weights: &[Vec<f64>; 3],
-        row: &RowState,
-        next: &RowState,
+    pub(super) fn compute(&self, forces: &mut RowForces) {
+        // Four loops: what a body has not costs nothing.
+        match (self.softening.is_some(), self.make.is_moved()) {
+            (false, false) => self.kinds::<false, false>(forces),
+            (false, true) => self.kinds::<false, true>(forces),
+            (true, false) => self.kinds::<true, false>(forces),
+            (true, true) => self.kinds::<true, true>(forces),
+        }
+    }
+
+    #[inline(always)]
+    fn kinds<const SOFTENS: bool, const MOVED: bool>(&self, forces: &mut RowForces) {
+        let odd = self.odd;
+        self.kind::<SOFTENS, MOVED>((0, 2), self.row, forces);
+        self.kind::<SOFTENS, MOVED>((1, 1 + odd), self.next, forces);
+        self.kind::<SOFTENS, MOVED>((2, odd), self.next, forces);
+    }
+
+    /// One kind of bonds along a row: the second particle of the first bond stands at `start` of the other row.
+    #[inline(always)]
+    fn kind<const SOFTENS: bool, const MOVED: bool>(
+        &self,
+        (kind, start): (usize, usize),
+        other: &RowState,
+        forces: &mut RowForces,
     ) {
-        let [along, right, left] = &mut self.0;
-        kind(springs, 0, &weights[0], row, row, 2, along);
-        kind(springs, 1, &weights[1], row, next, 1 + odd, right);
-        kind(springs, 2, &weights[2], row, next, odd, left);
+        let (damage, forces) = (&mut forces.damage, &mut forces.of[kind]);
+        let (row, make) = (self.row, self.make);
+        let count = make.mass.len() - 2;
+        let weights = &make.weights[kind][1..][..count];
+        let (ax, az) = (&row.x[1..][..count], &row.z[1..][..count]);
+        let (ac, a_s) = (&row.cosine[1..][..count], &row.sine[1..][..count]);
+        let (bx, bz) = (&other.x[start..][..count], &other.z[start..][..count]);
+        let (bc, bs) = (
+            &other.cosine[start..][..count],
+            &other.sine[start..][..count],
+        );
+        let (fx, fz) = (&mut forces.x[1..][..count], &mut forces.z[1..][..count]);
+        let moment = &mut forces.moment[1..][..count];
+        let rests = &make.rests[kind];
+        let moved = |array| inside::<MOVED>(array, count);
+        let (nx, nz, lengths) = (moved(&rests.x), moved(&rests.z), moved(&rests.length));
+        let before = inside::<SOFTENS>(&row.damage.worst[kind], count);
+        let after = inside_mut::<SOFTENS>(&mut damage.worst[kind], count);
+        let measures = inside_mut::<SOFTENS>(&mut damage.measure[kind], count);
+        let softening = if SOFTENS { self.softening } else { None };
+        for i in 0..count {
+            let a = Pose {
+                displacement: [ax[i], az[i]],
+                turn: [ac[i], a_s[i]],
+            };
+            let b = Pose {
+                displacement: [bx[i], bz[i]],
+                turn: [bc[i], bs[i]],
+            };
+            let (direction, length) = match MOVED {
+                true => ([nx[i], nz[i]], lengths[i]),
+                false => (DIRECTIONS[kind], self.springs.length),
+            };
+            let rest = Rest {
+                direction,
+                length,
+                weight: weights[i],
+            };
+            let worst = if SOFTENS { before[i] } else { 0.0 };
+            let found = bond(self.springs, softening, rest, worst, a, b);
+            fx[i] = found.force[0];
+            fz[i] = found.force[1];
+            moment[i] = found.moment;
+            if SOFTENS {
+                after[i] = found.worst;
+                measures[i] = found.measure;
+            }
+        }
     }
 }
 
@@ -133,41 +253,18 @@ pub(super) fn offset(kind: usize, odd: usize) -> isize {
     }
 }
 
-/// One kind of bonds along a row: the second particle of the first bond stands at `start` of the other row.
+/// The places of particles in a row, of an array that is there.
 #[inline(always)]
-fn kind(
-    springs: &Springs,
-    kind: usize,
-    weights: &[f64],
-    row: &RowState,
-    other: &RowState,
-    start: usize,
-    forces: &mut Forces,
-) {
-    let direction = DIRECTIONS[kind];
-    let count = weights.len() - 2;
-    let weights = &weights[1..][..count];
-    let (ax, az) = (&row.x[1..][..count], &row.z[1..][..count]);
-    let (ac, a_s) = (&row.cosine[1..][..count], &row.sine[1..][..count]);
-    let (bx, bz) = (&other.x[start..][..count], &other.z[start..][..count]);
-    let (bc, bs) = (
-        &other.cosine[start..][..count],
-        &other.sine[start..][..count],
-    );
-    let (fx, fz) = (&mut forces.x[1..][..count], &mut forces.z[1..][..count]);
-    let moment = &mut forces.moment[1..][..count];
-    for i in 0..count {
-        let a = Pose {
-            displacement: [ax[i], az[i]],
-            turn: [ac[i], a_s[i]],
-        };
-        let b = Pose {
-            displacement: [bx[i], bz[i]],
-            turn: [bc[i], bs[i]],
-        };
-        let found = bond(springs, direction, weights[i], a, b);
-        fx[i] = found.force[0];
-        fz[i] = found.force[1];
-        moment[i] = found.moment;
+fn inside<const IS_THERE: bool>(array: &[f64], count: usize) -> &[f64] {
+    if IS_THERE { &array[1..][..count] } else { &[] }
+}
+
+/// The same of an array that is written.
+#[inline(always)]
+fn inside_mut<const IS_THERE: bool>(array: &mut [f64], count: usize) -> &mut [f64] {
+    if IS_THERE {
+        &mut array[1..][..count]
+    } else {
+        &mut []
     }
 }

@@ -9,15 +9,8 @@ const COLUMNS: u32 = 10;
 /// Stress in the plane `[xx, zz, xz]` of a particle [Pa], tension positive: the mean over its volume by the virial of its bonds.
 pub(super) fn stress(body: &Body, row: usize, place: usize) -> [f64; 3] {
     let mut sum = [0.0; 3];
-    for kind in 0..3 {
-        add_bond(body, (row, place, kind), &mut sum);
-    }
-    // Bonds that end at the particle.
-    add_bond(body, (row, place - 1, 0), &mut sum);
-    if row > 0 {
-        let above_is_odd = 1 - row % 2;
-        add_bond(body, (row - 1, place - above_is_odd, 1), &mut sum);
-        add_bond(body, (row - 1, place + 1 - above_is_odd, 2), &mut sum);
+    for bond in body.bonds_of(row, place).into_iter().flatten() {
+        add_bond(body, bond, &mut sum);
     }
     let inside = body.lattice.spacing * body.lattice.spacing * ROW;
     let volume = inside * body.rows[row].mass[place] / body.lattice.mass;
@@ -44,11 +37,9 @@ pub(super) fn largest_tension([xx, zz, xz]: [f64; 3]) -> f64 {
     0.5 * (xx + zz) + (half * half + xz * xz).sqrt()
 }
 
-/// Particles on the axis and on one side of it: the body is symmetric, and pictures mirror it.
-pub(super) fn half(body: &Body) -> Vec<Particle> {
-    let least = -1e-6 * body.lattice.spacing;
+/// All particles of a body.
+pub(super) fn whole(body: &Body) -> Vec<Particle> {
     body.particles()
-        .filter(|&(row, place)| body.reference(row, place)[0] >= least)
         .map(|(row, place)| particle(body, row, place))
         .collect()
 }
@@ -68,11 +59,12 @@ fn particle(body: &Body, row: usize, place: usize) -> Particle {
         mass,
         volume: mass / body.lattice.mass * ROW * spacing * spacing,
         sides: [spacing, ROW * spacing],
+        damage: body.damage(row, place),
         ..Particle::default()
     }
 }
 
-/// Points that fill one side of a rigid projectile, which show where it is.
+/// Points that fill a rigid projectile, which show where it is.
 pub(super) fn rigid(
     shape: &Shape,
     length: f64,
@@ -83,9 +75,9 @@ pub(super) fn rigid(
     let mut points = Vec::new();
     let rows = (length / size).ceil() as u32;
     for row in 0..rows {
-        for column in 0..COLUMNS {
+        for column in 0..2 * COLUMNS {
             let at = [
-                (f64::from(column) + 0.5) * size,
+                (f64::from(column) + 0.5) * size - shape.radius,
                 -(f64::from(row) + 0.5) * size,
             ];
             if -at[1] < length && shape.penetration(at).is_some() {
@@ -93,7 +85,7 @@ pub(super) fn rigid(
             }
         }
     }
-    let share = 0.5 * mass / points.len().max(1) as f64;
+    let share = mass / points.len().max(1) as f64;
     let of = |[x, z]: [f64; 2]| Particle {
         position: [x, z + tip],
         velocity: [0.0, speed],

@@ -2,8 +2,14 @@
 
 mod body;
 mod bonds;
+mod debris;
+mod energy;
 mod fields;
+mod fracture;
 mod lattice;
+mod packing;
+mod periodic;
+mod pieces;
 mod results;
 mod run;
 mod setup;
@@ -12,7 +18,7 @@ mod step;
 #[cfg(test)]
 mod tests;
 
-pub use crate::options::{ParticlesOptions, Space};
+pub use crate::options::{PackingKind, ParticlesOptions, Space};
 
 use crate::{
     Error, Refusal, Scenario,
@@ -38,7 +44,7 @@ impl Model for Particles {
     }
 
     fn summary(&self) -> &'static str {
-        "2-D bonded particles: elastic waves and rigid impact on elastic plates, per metre of width"
+        "2-D bonded particles: elastic waves, cracks and rigid impact on brittle plates, per metre of width"
     }
 
     fn validity(&self) -> &'static ValidityDomain {
@@ -54,8 +60,8 @@ impl Model for Particles {
                 predicts: &[BandQuantity::ResidualVelocity],
                 notes: &[
                     "plane strain or plane stress: the projectile is a strip, and results are per metre of width",
-                    "a rigid projectile on one elastic plate, or an elastic strip on a rigid wall; no plastic flow, no fracture, no \
-                     friction yet",
+                    "a rigid projectile on one elastic plate, or an elastic strip on a rigid wall; bonds break where the material has \
+                     `fracture`, and pieces meet with friction; no plastic flow, and no friction of the projectile",
                     "Poisson's ratio of the lattice up to 1/4 in plane strain and 1/3 in plane stress",
                     "never a first choice: for what is axisymmetric use `axi`",
                 ],

@@ -1,6 +1,6 @@
 //! Samples, outcome and results of a run.
 
-use super::{fields, run::PlaneImpact, setup, shape::Rigid};
+use super::{fields, fracture::LEAST_SOFTENING, run::PlaneImpact, setup, shape::Rigid};
 use crate::{
     history::{ElementState, Sample},
     options::Space,
@@ -118,7 +118,7 @@ fn details(run: &PlaneImpact<'_>) -> Vec<Detail> {
     let extent = setup::extent(run.scenario);
     let body = &run.body;
     let detail = |name, unit, value| Detail { name, unit, value };
-    vec![
+    let mut details = vec![
         detail("spacing of the particles", "mm", body.lattice.spacing * 1e3),
         detail("particles", "", body.particles().count() as f64),
         detail("mass of the projectile, a metre wide", "kg", run.mass),
@@ -134,7 +134,20 @@ fn details(run: &PlaneImpact<'_>) -> Vec<Detail> {
             "%",
             100.0 * run.state.largest_stretch,
         ),
-    ]
+    ];
+    if let Some(softening) = &body.softening {
+        let pieces = body.pieces();
+        let largest = pieces.first().map_or(0.0, |piece| piece.mass);
+        let single = pieces.iter().filter(|piece| piece.particles == 1).count();
+        details.extend([
+            detail("softening of the bonds", "", softening.end),
+            detail("broken bonds", "", body.broken_bonds() as f64),
+            detail("pieces of the lattice", "", pieces.len() as f64),
+            detail("pieces of one particle", "", single as f64),
+            detail("largest piece over the lattice", "", largest / body.mass()),
+        ]);
+    }
+    details
 }
 
 fn warnings(run: &PlaneImpact<'_>, result: &RunResult) -> Vec<String> {
@@ -146,15 +159,39 @@ fn warnings(run: &PlaneImpact<'_>, result: &RunResult) -> Vec<String> {
         "two-dimensional model: the projectile is a strip, and its mass, forces and energies are per metre {across}; do not \
          compare them with those of a body of revolution"
     )];
-    let tension = run.state.largest_tension;
-    warnings.push(format!(
-        "the solid cannot break in this version: the largest tension is {} MPa, and beyond the strength of the material its \
-         answer does not hold",
-        significant(tension * 1e-6, 3)
-    ));
+    match setup::softenings(run.scenario, &run.body.lattice) {
+        Some(softenings) => warnings.extend(fracture_warnings(run, &softenings)),
+        None => warnings.push(format!(
+            "the solid cannot break in this run: the largest tension is {} MPa, and beyond the strength of the material its \
+             answer does not hold",
+            significant(run.state.largest_tension * 1e-6, 3)
+        )),
+    }
     if result.outcome == Outcome::OutOfTime {
         warnings.push(
             "the run ended before the bodies parted: the residual velocity is that of the moment; raise `particles.end_time`"
+                .to_owned(),
+        );
+    }
+    warnings
+}
+
+/// What a fracture answer depends on beside the material.
+fn fracture_warnings(run: &PlaneImpact<'_>, softenings: &setup::Softenings) -> Vec<String> {
+    let spacing = run.body.lattice.spacing * 1e3;
+    let mut warnings = Vec::new();
+    if softenings.exact < LEAST_SOFTENING {
+        let fitting = spacing * softenings.exact / LEAST_SOFTENING;
+        warnings.push(format!(
+            "cracks take the fracture energy, but start at less than the tensile strength of the material: particles of {} mm have \
+             both, and those of this run are {} mm apart; set `particles.spacing` where that can be computed",
+            significant(fitting, 2),
+            significant(spacing, 3)
+        ));
+    }
+    if run.body.broken_bonds() > 0 {
+        warnings.push(
+            "paths and pieces of cracks scatter with the packing: run several values of `particles.seed`, and give mean and spread"
                 .to_owned(),
         );
     }

@@ -6,8 +6,10 @@ use rayon::prelude::*;
 
 use super::{
     body::Body,
+    debris::{ContactLaw, Debris},
     fields, results, setup,
     shape::{Contact, Rigid, contact, stiffness},
+    step::Load,
 };
 use crate::{
     Error, Scenario,
@@ -29,7 +31,7 @@ use crate::{
 
 /// Steps between two checks of the balances.
 const INTERVAL: u64 = 50;
-/// Largest stretch of a bond: beyond it no brittle solid is whole, and the model has no fracture yet.
+/// Largest stretch of a bond that holds: beyond it no brittle solid is whole.
 const LARGEST_STRETCH: f64 = 0.1;
 /// Round trips of a wave through the lattice, or from its middle to its side, without contact after which the bodies have parted.
 const PARTED_AFTER: f64 = 2.0;
@@ -45,6 +47,10 @@ pub(crate) struct PlaneImpact<'a> {
     pub(super) state: State,
     pub(super) time_step: f64,
     contact: Contact,
+    debris: Debris,
+    law: ContactLaw,
+    /// Forces of both, in the order of the rows.
+    loads: Vec<Load>,
     initial: (f64, f64),
 }
 
@@ -91,6 +97,24 @@ impl PlaneImpact<'_> {
 
     fn find_contact(&mut self) {
         self.contact = contact(&self.body, self.rigid, self.state.tip);
+        self.loads.clone_from(&self.contact.loads);
+        let of_pieces = self.debris.loads(&self.body, &self.law);
+        self.loads.extend(of_pieces);
+        self.loads.sort_by_key(|load| (load.row, load.place));
+    }
+
+    /// Contact of pieces after a step: once a bond is broken, its ends and the faces of the body are watched.
+    fn meet_pieces(&mut self) {
+        let (body, debris) = (&self.body, &mut self.debris);
+        if body.softening.is_none() {
+            return;
+        }
+        let is_due = self.state.step.is_multiple_of(INTERVAL)
+            && (!debris.is_empty() || body.broken_bonds() > 0);
+        if is_due || debris.has_moved(body) {
+            debris.search(body, &self.law);
+        }
+        debris.update(body, &self.law, self.time_step);
     }
 
     /// Largest stretch of a bond and largest tension of a particle, now or before.
@@ -112,7 +136,8 @@ fn survey_row(body: &Body, row: usize) -> (f64, f64) {
         let tension = fields::largest_tension(fields::stress(body, row, place));
         extremes.1 = extremes.1.max(tension);
         for kind in 0..3 {
-            if body.rows[row].weights[kind][place] > 0.0 {
+            let holds = body.softening.is_none() || !body.is_broken((row, place, kind));
+            if body.rows[row].weights[kind][place] > 0.0 && holds {
                 let stretch = body.bond_of(row, place, kind).elongation.abs();
                 extremes.0 = extremes.0.max(stretch / body.lattice.spacing);
             }
@@ -142,7 +167,10 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
             Rigid::Projectile(shape) => rod.material.density.si() * shape.area(rod.length),
         };
         // A particle of the surface has half the mass of one inside, and a spring of the contact beside its bonds.
-        let frequency = body.lattice.largest_frequency();
+        let frequency = match body.rows[0].is_moved() {
+            true => body.measured_frequency(),
+            false => body.lattice.largest_frequency(),
+        };
         let of_contact =
             (frequency * frequency + 2.0 * stiffness(&body) / body.lattice.mass).sqrt();
         let mut impact = Self {
@@ -156,6 +184,9 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
                 ..State::default()
             },
             contact: Contact::default(),
+            debris: Debris::default(),
+            law: setup::contact_law(scenario, &body),
+            loads: Vec::new(),
             initial: (0.5 * mass * speed * speed, mass * speed),
             body,
         };
@@ -175,7 +206,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
 
     fn advance(&mut self) -> Result<(), NumericalError> {
         let step = self.time_step;
-        self.state.support += self.body.advance(step, &self.contact.loads);
+        self.state.support += self.body.advance(step, &self.loads);
         match self.rigid {
             Rigid::Wall => self.state.support -= step * self.contact.force,
             Rigid::Projectile(_) => {
@@ -185,6 +216,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         }
         self.state.step += 1;
         self.state.time += step;
+        self.meet_pieces();
         self.find_contact();
         if !self.contact.loads.is_empty() {
             self.state.last_contact = self.state.time;
@@ -221,10 +253,13 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
     }
 
     fn energy(&self) -> EnergyLedger {
-        let sums = self.body.sums(self.time_step, &self.contact.loads);
-        let elastic = sums.elastic + self.contact.energy;
+        let sums = self.body.sums(self.time_step, &self.loads);
+        let of_pieces = self.debris.energy(&self.body, &self.law);
+        let elastic = sums.elastic + self.contact.energy + of_pieces;
         let mut energy = EnergyLedger::default();
         energy.initial = self.initial.0;
+        energy.fracture = sums.fracture;
+        energy.contact = self.debris.lost;
         match self.rigid {
             Rigid::Wall => {
                 energy.kinetic_projectile = sums.kinetic;
@@ -265,9 +300,13 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         if self.state.largest_stretch <= LARGEST_STRETCH {
             return Ok(());
         }
+        let why = match self.body.softening {
+            Some(_) => "no spring stands for so large a strain of what is still whole",
+            None => "the solid would break, and the bonds of this run do not",
+        };
         Err(self.clock().failure(
             format!(
-                "a bond is stretched or shortened by {:.0} % of its length: the solid would break, and the model has no fracture yet,",
+                "a bond is stretched or shortened by {:.0} % of its length: {why},",
                 100.0 * self.state.largest_stretch
             ),
             "lower `projectile.impact_velocity`, blunt the nose, or use another model".to_owned(),
@@ -317,7 +356,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
     }
 
     fn fields(&self) -> Fields<'_> {
-        let lattice = Cow::Owned(fields::half(&self.body));
+        let lattice = Cow::Owned(fields::whole(&self.body));
         let bodies = match self.rigid {
             Rigid::Wall => vec![lattice],
             Rigid::Projectile(shape) => {
@@ -339,6 +378,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         archive.item(&mut self.state)?;
         archive.item(&mut self.body.state)?;
         archive.item(&mut self.body.motion)?;
+        archive.item(&mut self.debris)?;
         if archive.is_read() {
             self.find_contact();
         }

@@ -2,13 +2,16 @@
 
 use super::{
     body::{Body, Rows},
-    lattice::{ROW, Solid, poissons_ratio_refusal},
+    debris::ContactLaw,
+    fracture::{self, LEAST_SOFTENING, Softening, Toughness},
+    lattice::{Lattice, ROW, Solid, poissons_ratio_refusal},
+    packing::{Moved, Packing},
     shape::{Rigid, Shape},
 };
 use crate::{
     Refusal, Scenario,
     material::{Material, Strength},
-    options::ParticlesOptions,
+    options::{PackingKind, ParticlesOptions},
     problem::RearFaceCondition,
     scenario::{Plate, TargetBody},
 };
@@ -67,6 +70,13 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
     if scenario.rear_face() == Some(RearFaceCondition::NonReflecting) {
         let reason = "it has no non-reflecting rear face";
         let remedy = "give `target.back_face` as \"free\" or \"fixed\", and a thickness from which no wave returns in time";
+        return Some(Refusal::new(reason).with_remedy(remedy));
+    }
+    if scenario.options.particles.fracture == Some(true) && material.fracture.is_none() {
+        let reason = format!(
+            "`particles.fracture = true` needs the fracture energy and the tensile strength of the material `{id}`"
+        );
+        let remedy = "give the material a table `fracture` with `energy` and `tensile_strength`, or remove the option";
         return Some(Refusal::new(reason).with_remedy(remedy));
     }
     let space = scenario.options.particles.space();
@@ -129,21 +139,95 @@ pub(super) fn memory(scenario: &Scenario) -> f64 {
     PARTICLE * extent(scenario).particles()
 }
 
-/// The lattice at the moment of impact, and the rigid body that it meets.
-pub(super) fn build(scenario: &Scenario) -> (Body, Rigid) {
-    let extent = extent(scenario);
+/// Resistance to cracks of the lattice's material, if its bonds break.
+pub(super) fn toughness(scenario: &Scenario) -> Option<Toughness> {
+    let fracture = material(scenario).0.fracture.as_ref()?;
+    (scenario.options.particles.fracture != Some(false)).then(|| Toughness {
+        energy: fracture.energy.si(),
+        strength: fracture.tensile_strength.si(),
+    })
+}
+
+fn packing(scenario: &Scenario) -> Packing {
+    let options = &scenario.options.particles;
+    let default = match toughness(scenario) {
+        Some(_) => PackingKind::Irregular,
+        None => PackingKind::Hexagonal,
+    };
+    match options.packing.unwrap_or(default) {
+        PackingKind::Hexagonal => Packing::Hexagonal,
+        PackingKind::Irregular => Packing::Irregular(Moved {
+            amplitude: options.amplitude(),
+            seed: options.seed(),
+        }),
+    }
+}
+
+fn solid(scenario: &Scenario) -> Solid {
     let (material, _) = material(scenario);
-    let solid = Solid {
+    Solid {
         density: material.density.si(),
         youngs_modulus: material.youngs_modulus.si(),
         poissons_ratio: material.poissons_ratio,
-    };
-    let lattice = solid.lattice(scenario.options.particles.space(), extent.spacing());
+    }
+}
+
+/// Softening of the bonds that a case asks for, and that with which the material has energy and strength.
+pub(super) struct Softenings {
+    pub(super) used: f64,
+    pub(super) exact: f64,
+}
+
+/// Softening of a case's bonds, if they break.
+pub(super) fn softenings(scenario: &Scenario, lattice: &Lattice) -> Option<Softenings> {
+    let toughness = toughness(scenario)?;
+    let options = &scenario.options.particles;
+    let irregular = packing(scenario) != Packing::Hexagonal;
+    let solid = (solid(scenario), options.space());
+    let exact = fracture::exact_softening(solid, lattice, toughness, irregular);
+    let auto = exact.clamp(LEAST_SOFTENING, fracture::LARGEST_SOFTENING);
+    Some(Softenings {
+        used: options.softening.unwrap_or(auto),
+        exact,
+    })
+}
+
+/// Contact of the pieces of a case's lattice.
+pub(super) fn contact_law(scenario: &Scenario, body: &Body) -> ContactLaw {
+    let options = &scenario.options.particles;
+    let ratio = solid(scenario).poissons_ratio;
+    ContactLaw::new(
+        &body.lattice,
+        ratio,
+        options.restitution(),
+        options.friction(),
+    )
+}
+
+/// The lattice at the moment of impact, and the rigid body that it meets.
+pub(super) fn build(scenario: &Scenario) -> (Body, Rigid) {
+    let extent = extent(scenario);
+    let packing = packing(scenario);
+    let mut lattice = solid(scenario).lattice(scenario.options.particles.space(), extent.spacing());
+    if let Packing::Irregular(moved) = packing {
+        lattice = moved.tuned(&lattice);
+    }
     let rows = Rows {
         count: extent.layers() as usize + 1,
         particles: extent.columns() as usize,
     };
-    let mut body = Body::strip(lattice, rows, extent.start);
+    let mut body = Body::strip(lattice, rows, extent.start, packing);
+    if let (Some(toughness), Some(softenings)) =
+        (toughness(scenario), softenings(scenario, &lattice))
+    {
+        let irregular = packing != Packing::Hexagonal;
+        body.soften(Softening::new(
+            &lattice,
+            toughness.energy,
+            softenings.used,
+            irregular,
+        ));
+    }
     if layer(scenario).is_none() {
         body.launch(scenario.impact_velocity);
         return (body, Rigid::Wall);

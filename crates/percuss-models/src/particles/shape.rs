@@ -124,7 +124,12 @@ pub(super) fn contact(body: &Body, rigid: Rigid, tip: f64) -> Contact {
         }
         Rigid::Projectile(shape) => {
             let height = ROW * body.lattice.spacing;
-            let last = ((tip / height).max(0.0) as usize + 1).min(body.rows.len() - 1);
+            let reached = ((tip / height).max(0.0) as usize + 1).min(body.rows.len() - 1);
+            // Pieces go anywhere.
+            let last = match body.softening {
+                Some(_) => body.rows.len() - 1,
+                None => reached,
+            };
             add_up(body, 0..=last, |[x, z]| shape.penetration([x, z - tip]))
         }
     }
@@ -152,6 +157,7 @@ fn add_up(
                 row,
                 place,
                 force: [force * x, force * z],
+                moment: 0.0,
             });
         }
     }

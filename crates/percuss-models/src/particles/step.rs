@@ -4,28 +4,35 @@ use rayon::prelude::*;
 
 use super::{
     body::{Body, RowMake, RowMotion, RowState},
-    bonds::{BondForce, Forces, Pose, RowForces, Springs, bond, offset},
+    bonds::{BondForce, Forces, Pair, Pose, Rest, RowForces, Springs, bond, offset},
     lattice::DIRECTIONS,
 };
+use crate::random::unit;
 
 /// Rows that one task takes at least, and particles below which one task takes all.
-const LEAST_ROWS: usize = 8;
+pub(super) const LEAST_ROWS: usize = 8;
 const SMALL: usize = 4096;
 
-/// Force of a contact on a particle [N per m].
+/// Rounds of the search for the largest frequency, what they may leave, and the random numbers that it starts from.
+const FREQUENCY_ROUNDS: usize = 30;
+const FREQUENCY_MARGIN: f64 = 1.05;
+const FREQUENCY_STREAM: u64 = 0xf1e1d;
+
+/// Force [N per m] and moment [N m per m] of a contact on a particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Load {
     pub(super) row: usize,
     pub(super) place: usize,
     pub(super) force: [f64; 2],
+    pub(super) moment: f64,
 }
 
 impl Forces {
     /// Sum of what the bonds of a row and of the row above it do.
     #[inline(always)]
     fn sum(&mut self, odd: usize, own: &RowForces, above: &RowForces) {
-        let [along, right, left] = &own.0;
-        let [_, from_left, from_right] = &above.0;
+        let [along, right, left] = &own.of;
+        let [_, from_left, from_right] = &above.of;
         let count = self.x.len() - 2;
         // The row above has the other parity: its bonds to the right start `1 − odd` places before, those to the left one place later.
         let (first, second) = (odd, odd + 1);
@@ -90,41 +97,51 @@ impl pulp::NullaryFnOnce for Slice<'_> {
                 state,
                 motion,
             );
+            if body.softening.is_some() {
+                // What was the row's own is what is above the next one.
+                std::mem::swap(&mut state.damage, &mut forces.above.damage);
+                state.lost = body.state[row].lost + forces.lost;
+            }
         }
         support
     }
 }
 
 /// Forces of one row after the other.
-struct Sweep {
+pub(super) struct Sweep {
     above: RowForces,
     own: RowForces,
-    total: Forces,
+    pub(super) total: Forces,
+    /// Energy that the softening of the row's bonds takes in the step that ends now [J per m].
+    pub(super) lost: f64,
 }
 
 impl Sweep {
     #[inline(always)]
-    fn new(body: &Body, springs: &Springs, first: usize) -> Self {
-        let mut above = RowForces::new(body.stride);
+    pub(super) fn new(body: &Body, springs: &Springs, first: usize) -> Self {
+        let mut above = RowForces::new(body.stride, body.softening.is_some());
         if first > 0 {
             body.row_forces(springs, first - 1, &mut above);
         }
         Self {
             above,
-            own: RowForces::new(body.stride),
+            own: RowForces::new(body.stride, body.softening.is_some()),
             total: Forces::new(body.stride),
+            lost: 0.0,
         }
     }
 
     #[inline(always)]
-    fn next(&mut self, body: &Body, springs: &Springs, row: usize, loads: &[Load]) {
+    pub(super) fn next(&mut self, body: &Body, springs: &Springs, row: usize, loads: &[Load]) {
         body.row_forces(springs, row, &mut self.own);
         self.total.sum(row % 2, &self.own, &self.above);
         let start = loads.partition_point(|load| load.row < row);
         for load in loads[start..].iter().take_while(|load| load.row == row) {
             self.total.x[load.place] += load.force[0];
             self.total.z[load.place] += load.force[1];
+            self.total.moment[load.place] += load.moment;
         }
+        self.lost = body.loss(row, &self.own.damage);
         std::mem::swap(&mut self.above, &mut self.own);
     }
 }
@@ -150,7 +167,15 @@ impl Body {
         let own = &self.state[row];
         // The last row has no bonds to a next one: their weights are 0.
         let next = self.state.get(row + 1).unwrap_or(own);
-        forces.compute(springs, row % 2, &self.rows[row].weights, own, next);
+        let pair = Pair {
+            springs,
+            softening: self.softening.as_ref(),
+            odd: row % 2,
+            make: &self.rows[row],
+            row: own,
+            next,
+        };
+        pair.compute(forces);
     }
 
     /// Advances all particles by a step [s] under the loads of contacts, which are in the order of the rows; returns the impulse on the
@@ -191,72 +216,61 @@ impl Body {
         }
     }
 
-    /// Energies now, the velocities taken half a step on under the same loads.
-    pub(super) fn sums(&self, step: f64, loads: &[Load]) -> BodySums {
-        let rows: Vec<BodySums> = (0..self.rows.len())
-            .into_par_iter()
-            .with_min_len(LEAST_ROWS)
-            .map(|row| self.row_sums(row, step, loads))
-            .collect();
-        let mut sums = BodySums::default();
-        for row in rows {
-            sums.kinetic += row.kinetic;
-            sums.elastic += row.elastic;
-            sums.largest_stretch = sums.largest_stretch.max(row.largest_stretch);
+    /// Largest angular frequency [rad/s], by power iteration on the accelerations of small displacements. The start is random, so that
+    /// every motion is in it, and the result is raised by what thirty rounds may leave.
+    pub(super) fn measured_frequency(&self) -> f64 {
+        let mut body = self.clone();
+        body.softening = None;
+        let size = 1e-9 * self.lattice.spacing;
+        for row in 0..body.rows.len() {
+            let make = &body.rows[row];
+            let motion = &mut body.motion[row];
+            for place in (0..self.stride).filter(|&place| make.mass[place] > 0.0) {
+                let index = 3 * (row * self.stride + place) as u64;
+                let draw = |part| unit(FREQUENCY_STREAM, index + part) - 0.5;
+                motion.x[place] = draw(0);
+                motion.z[place] = draw(1);
+                motion.spin[place] = draw(2) / self.lattice.spacing;
+            }
         }
-        sums
+        let mut square = 0.0;
+        for _ in 0..FREQUENCY_ROUNDS {
+            let before = body.motion_norm();
+            body.displace_by_motion(size / before);
+            body.advance(1.0, &[]);
+            square = body.motion_norm() / size;
+        }
+        FREQUENCY_MARGIN * square.sqrt()
     }
 
-    /// Kinetic energy as `½ m v₋·v₊` of the velocities half a step before and after, with which leapfrog conserves the energy of
-    /// linear springs exactly.
-    fn row_sums(&self, row: usize, step: f64, loads: &[Load]) -> BodySums {
-        let springs = self.springs();
-        let mut sweep = Sweep::new(self, &springs, row);
-        sweep.next(self, &springs, row, loads);
-        let mut total = sweep.total;
-        if self.is_held(row) {
-            total.z.fill(0.0);
-        }
-        let (make, motion) = (&self.rows[row], &self.motion[row]);
-        let mut sums = BodySums::default();
-        for place in 1..self.stride - 1 {
-            let mass = make.mass[place];
-            if mass == 0.0 {
-                continue;
-            }
-            let inertia = 1.0 / make.inverse_inertia[place];
-            for (mass, speed, force) in [
-                (mass, motion.x[place], total.x[place]),
-                (mass, motion.z[place], total.z[place]),
-                (inertia, motion.spin[place], total.moment[place]),
-            ] {
-                sums.kinetic += 0.5 * speed * (mass * speed + step * force);
-            }
-            for kind in 0..3 {
-                let weight = make.weights[kind][place];
-                if weight > 0.0 {
-                    let found = self.bond_of(row, place, kind);
-                    sums.elastic += found.energy;
-                    let stretch = found.elongation.abs() / springs.length;
-                    sums.largest_stretch = sums.largest_stretch.max(stretch);
-                }
+    /// Root of twice the kinetic energy over that of a velocity of 1 m/s.
+    fn motion_norm(&self) -> f64 {
+        let mut sum = 0.0;
+        for (make, motion) in self.rows.iter().zip(&self.motion) {
+            for place in (0..self.stride).filter(|&place| make.inverse_mass[place] > 0.0) {
+                let speeds = motion.x[place].powi(2) + motion.z[place].powi(2);
+                sum += make.mass[place] * speeds
+                    + motion.spin[place].powi(2) / make.inverse_inertia[place];
             }
         }
-        sums
+        (sum / self.mass()).sqrt()
     }
 
-    /// Momentum along the direction of impact half a step ago [N s per m].
-    pub(super) fn momentum(&self) -> f64 {
-        let rows = self.rows.iter().zip(&self.motion);
-        rows.flat_map(|(make, motion)| make.mass.iter().zip(&motion.z))
-            .map(|(mass, velocity)| mass * velocity)
-            .sum()
+    /// Makes the velocities, times a factor, displacements of a body at rest.
+    fn displace_by_motion(&mut self, factor: f64) {
+        for (state, motion) in self.state.iter_mut().zip(&mut self.motion) {
+            for place in 0..self.stride {
+                state.x[place] = factor * std::mem::take(&mut motion.x[place]);
+                state.z[place] = factor * std::mem::take(&mut motion.z[place]);
+                let angle = factor * std::mem::take(&mut motion.spin[place]);
+                (state.cosine[place], state.sine[place]) = (1.0, angle);
+            }
+        }
     }
 
     /// Force and energy of one bond.
     pub(super) fn bond_of(&self, row: usize, place: usize, kind: usize) -> BondForce {
         let (other_row, other) = self.other_end(row, place, kind);
-        let weight = self.rows[row].weights[kind][place];
         let pose = |row: usize, place: usize| {
             let state = &self.state[row];
             Pose {
@@ -264,8 +278,30 @@ impl Body {
                 turn: [state.cosine[place], state.sine[place]],
             }
         };
-        let ends = (pose(row, place), pose(other_row, other));
-        bond(&self.springs(), DIRECTIONS[kind], weight, ends.0, ends.1)
+        let (a, b) = (pose(row, place), pose(other_row, other));
+        let (softening, rest) = (self.softening.as_ref(), self.rest(row, place, kind));
+        let worst = match softening {
+            Some(_) => self.state[row].damage.worst[kind][place],
+            None => 0.0,
+        };
+        bond(&self.springs(), softening, rest, worst, a, b)
+    }
+
+    /// A bond at rest.
+    pub(super) fn rest(&self, row: usize, place: usize, kind: usize) -> Rest {
+        let make = &self.rows[row];
+        let (direction, length) = match make.is_moved() {
+            true => {
+                let rests = &make.rests[kind];
+                ([rests.x[place], rests.z[place]], rests.length[place])
+            }
+            false => (DIRECTIONS[kind], self.lattice.spacing),
+        };
+        Rest {
+            direction,
+            length,
+            weight: make.weights[kind][place],
+        }
     }
 
     /// Row and place of the second particle of a bond.
@@ -273,14 +309,6 @@ impl Body {
         let other = place.saturating_add_signed(offset(kind, row % 2));
         (row + usize::from(kind > 0), other)
     }
-}
-
-/// Energies [J per m] and largest stretch of a bond.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct BodySums {
-    pub(super) kinetic: f64,
-    pub(super) elastic: f64,
-    pub(super) largest_stretch: f64,
 }
 
 /// Leapfrog of the particles of a row.

@@ -7,7 +7,7 @@ const FINER: usize = 2;
 /// Index where there is no body.
 pub(crate) const NOTHING: u8 = u8::MAX;
 
-/// Part of the plane that a picture shows, mirrored in the axis.
+/// Part of the plane that a picture shows: as wide on either side of the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
     /// Largest radius [m].
@@ -41,13 +41,17 @@ pub(crate) fn draw(
     (width, height): (usize, usize),
     paint: &dyn Paint,
 ) -> Raster {
-    // The half beyond the axis; the other one is its mirror image.
-    let (columns, rows) = (width.div_ceil(2) * FINER, height * FINER);
+    // A body of revolution has only the half beyond the axis, and the other one is its mirror image; a plane body has both.
+    let is_whole = points.places.iter().any(|[across, _]| *across < 0.0);
+    let half = width.div_ceil(2);
+    let shown = if is_whole { width } else { half };
+    let (columns, rows) = (shown * FINER, height * FINER);
     let across = (width * FINER) as f32 / (2.0 * view.radius as f32);
     let down = rows as f32 / (view.depth.1 - view.depth.0) as f32;
     let place = |[radius, depth]: [f32; 2]| {
         let y = (depth - view.depth.0 as f32) * down;
-        [radius * across, y]
+        let left = if is_whole { view.radius as f32 } else { 0.0 };
+        [(radius + left) * across, y]
     };
     let size = middle(&points.sizes) * down;
     let mut fine = Fine {
@@ -70,10 +74,9 @@ pub(crate) fn draw(
         layer.close();
         fine.paint(&layer, this);
     }
-    let half = width.div_ceil(2);
     let mut pixels = vec![[0; 3]; width * height];
     for row in 0..height {
-        for column in 0..half {
+        for column in 0..shown {
             let mut mean = [0_u32; 3];
             for i in 0..FINER * FINER {
                 let (x, y) = (column * FINER + i % FINER, row * FINER + i / FINER);
@@ -84,6 +87,10 @@ pub(crate) fn draw(
                 }
             }
             let color = mean.map(|sum| (sum / (FINER * FINER) as u32) as u8);
+            if is_whole {
+                pixels[row * width + column] = color;
+                continue;
+            }
             let right = width / 2 + column;
             if right < width {
                 pixels[row * width + right] = color;
@@ -200,6 +207,27 @@ mod tests {
             depth: (-50.0, 50.0),
         };
         draw(&points, view, (200, 200), &Plain)
+    }
+
+    /// A square of 10 by 10 to the left of the axis.
+    #[test]
+    fn a_body_on_both_sides_of_the_axis_is_not_mirrored() {
+        let mut points = Points::default();
+        for cell in 0..100_u8 {
+            let (column, row) = (f32::from(cell % 10), f32::from(cell / 10));
+            points.places.push([column - 19.5, row + 0.5]);
+            points.bodies.push(0);
+            points.sizes.push(1.0);
+            points.values.push(7.0);
+        }
+        let view = View {
+            radius: 50.0,
+            depth: (-50.0, 50.0),
+        };
+        let picture = draw(&points, view, (200, 200), &Plain);
+        let at = |column: usize| picture.pixels[110 * 200 + column];
+        assert_eq!(at(70), [200, 0, 7]);
+        assert_eq!((at(55), at(130)), ([255; 3], [255; 3]));
     }
 
     #[test]

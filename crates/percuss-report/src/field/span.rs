@@ -43,7 +43,10 @@ impl FieldSpan {
         for ([radius, depth], body) in places {
             if body == 0 {
                 let (widest, (back, front)) = span.rod;
-                span.rod = (widest.max(radius), (back.min(depth), front.max(depth)));
+                span.rod = (
+                    widest.max(radius.abs()),
+                    (back.min(depth), front.max(depth)),
+                );
             } else {
                 span.target = span.target.max(depth);
             }

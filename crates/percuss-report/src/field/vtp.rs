@@ -320,8 +320,11 @@ pub(crate) fn decode(file: &[u8], array: &str, components: usize) -> Option<Poin
         .map(|point| [point[0], -point[1]])
         .collect();
     let volumes = floats("volume", 1)?;
-    let size = |([radius, _], volume): (&[f32; 2], &f32)| {
-        (volume / (2.0 * std::f32::consts::PI * radius)).sqrt()
+    // A plane body, which stands on both sides of the axis, has its area for a volume.
+    let is_plane = places.iter().any(|[across, _]| *across < 0.0);
+    let size = |([radius, _], volume): (&[f32; 2], &f32)| match is_plane {
+        true => volume.sqrt(),
+        false => (volume / (2.0 * std::f32::consts::PI * radius)).sqrt(),
     };
     let points = Points {
         time: number("TimeValue")?,

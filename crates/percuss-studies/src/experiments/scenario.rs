@@ -177,6 +177,7 @@ impl Properties {
             validity: material::Validity::default(),
             equation_of_state: None,
             damage: None,
+            fracture: None,
             calibrated: None,
             strength,
         }

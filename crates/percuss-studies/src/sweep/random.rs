@@ -1,16 +1,7 @@
 //! Random numbers that are pure functions of a seed and an index: no state, so that any run can be made at any time.
 
-/// The finaliser of the generator SplitMix64 (Steele, Lea and Flood 2014): every bit of the result depends on every bit of `z`.
-fn mix(z: u64) -> u64 {
-    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
-}
-
-/// Bits drawn for an index of a stream.
-pub(crate) fn bits(stream: u64, index: u64) -> u64 {
-    mix(stream ^ mix(index.wrapping_add(0x9e37_79b9_7f4a_7c15)))
-}
+pub(crate) use percuss_core::random::bits;
+use percuss_core::random::mix;
 
 /// A stream of its own for every purpose and dimension.
 pub(crate) fn stream(seed: u64, purpose: u64, dimension: usize) -> u64 {

@@ -147,7 +147,8 @@ fn records_are_physical() {
         let sound = (bulk / density).sqrt();
         // A soft filler of one bullet has a modulus that its own note calls far too low.
         if id != "apm2-lead-cap-flores-johnson" {
-            assert!((1000.0..9000.0).contains(&sound), "{id}: {sound} m/s");
+            // Boron carbide is the fastest.
+            assert!((1000.0..10_000.0).contains(&sound), "{id}: {sound} m/s");
         }
         assert!(shear > 0.0 && shear < 1.5 * bulk, "{id}: {shear} Pa");
         if let Some(eos) = &material.equation_of_state {
@@ -170,7 +171,11 @@ fn records_are_physical() {
         let rising = stresses.windows(2).all(|two| two[1] >= two[0]);
         assert!(positive && rising, "{id}: {stresses:?}");
         assert!(
-            stresses.len() == 101 || matches!(material.strength, Strength::Concrete(_)),
+            stresses.len() == 101
+                || matches!(
+                    material.strength,
+                    Strength::Concrete(_) | Strength::Elastic(_)
+                ),
             "{id}: {}",
             stresses.len()
         );

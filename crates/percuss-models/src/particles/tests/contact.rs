@@ -312,7 +312,7 @@ fn a_lattice_that_is_torn_ends_the_run() {
     let error = solver::run(&Particles, &scenario, &mut Control::default())
         .unwrap_err()
         .to_string();
-    assert!(error.contains("the model has no fracture yet"), "{error}");
+    assert!(error.contains("the bonds of this run do not"), "{error}");
 }
 
 /// Memory that is estimated is at least that of the arrays, and at most three times as much.

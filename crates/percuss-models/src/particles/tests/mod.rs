@@ -1,12 +1,16 @@
 //! Exact tests of the lattice and of its contact with rigid bodies.
 
 mod contact;
+mod debris;
+mod fracture;
 mod lattice;
 mod motion;
+mod packing;
 
 use super::{
     body::{Body, Rows},
     lattice::Solid,
+    packing::Packing,
 };
 use crate::options::Space;
 
@@ -29,6 +33,7 @@ pub(super) fn strip(space: Space, ratio: f64, rows: usize, particles: usize) -> 
             particles,
         },
         0.0,
+        Packing::Hexagonal,
     )
 }
 

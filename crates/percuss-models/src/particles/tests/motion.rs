@@ -5,8 +5,10 @@ use crate::{
     options::Space,
     particles::{
         body::{Body, Rows},
+        energy::BodySums,
         lattice::ROW,
-        step::{BodySums, Load},
+        packing::Packing,
+        step::Load,
     },
 };
 
@@ -25,6 +27,7 @@ fn disc(radius: f64) -> Body {
             particles,
         },
         0.0,
+        Packing::Hexagonal,
         |row, column| {
             let x = column as f64 + 0.5 * (row % 2) as f64 - middle.1;
             let z = (row as f64 - middle.0) * ROW;
@@ -67,6 +70,7 @@ fn stretch(body: &mut Body, middle: [f64; 2], spin: f64, step: f64) {
                     of(x - middle[0], motion.x[place]),
                     of(z - middle[1], motion.z[place]),
                 ],
+                moment: 0.0,
             }
         };
         let loads: Vec<Load> = particles.iter().map(load).collect();

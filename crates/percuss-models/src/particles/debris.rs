@@ -1,0 +1,327 @@
+//! Contact of particles that no whole bond holds: pieces of a body that meet, and both sides of a crack that closes.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::{Deserialize, Serialize};
+
+use super::{body::Body, lattice::Lattice, step::Load};
+
+/// Distance beyond contact at which a pair is watched, in spacings; half of it is how far particles go between two searches.
+const WATCHED: f64 = 0.2;
+/// Halvings of the search for the damping of a restitution.
+const HALVINGS: usize = 60;
+
+/// Law of contact of two particles, as discs with the spacing as diameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ContactLaw {
+    /// Stiffness along the line of centres [N/m per m].
+    stiffness: f64,
+    /// Stiffness across it, over that along it.
+    across: f64,
+    /// Coefficient of Coulomb friction.
+    friction: f64,
+    /// Damping, over that at which a pair just does not swing.
+    damping: f64,
+    /// Diameter of a particle [m].
+    diameter: f64,
+}
+
+impl ContactLaw {
+    /// Contact of particles of a lattice, of a solid of a Poisson's ratio.
+    pub(super) fn new(lattice: &Lattice, ratio: f64, restitution: f64, friction: f64) -> Self {
+        Self {
+            stiffness: lattice.normal,
+            across: 2.0 * (1.0 - ratio) / (2.0 - ratio),
+            friction,
+            damping: damping_of(restitution),
+            diameter: lattice.spacing,
+        }
+    }
+}
+
+/// Damping at which two particles part with a part of the velocity at which they met: their force may push, not pull.
+fn damping_of(restitution: f64) -> f64 {
+    let (mut low, mut high) = (0.0_f64, 1.0_f64);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        let tangent = middle / (1.0 - middle * middle).sqrt();
+        let found = (-tangent * (std::f64::consts::PI - 2.0 * tangent.atan())).exp();
+        if found > restitution {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// Row and place of a particle.
+type At = (usize, usize);
+
+/// A pair that touches or may touch soon.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Pair {
+    ends: [At; 2],
+    /// Kind of the broken bond that starts at the first end: its normal spring still pushes, and carries the force of the contact.
+    bond: Option<usize>,
+    /// Force along the line of centres, pressure positive [N per m].
+    push: f64,
+    /// Part of it that damps [N per m].
+    drag: f64,
+    /// Elongation of the spring across that line [m].
+    slide: f64,
+}
+
+/// All pairs of a body, and what they have lost.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Debris {
+    pairs: Vec<Pair>,
+    /// Positions at the last search of the particles that have neighbours without a whole bond [m].
+    searched: Vec<(At, [f64; 2])>,
+    /// Energy lost to damping and friction [J per m].
+    pub(super) lost: f64,
+}
+
+/// Two particles now.
+struct Meeting {
+    /// From the first to the second.
+    normal: [f64; 2],
+    distance: f64,
+    /// Distance at which they touch [m].
+    reach: f64,
+    /// Stiffness along the normal [N/m per m].
+    stiffness: f64,
+}
+
+impl Debris {
+    /// Whether particles without a whole bond to their neighbours were found.
+    pub(super) fn is_empty(&self) -> bool {
+        self.searched.is_empty()
+    }
+
+    /// Whether a particle has gone so far since the last search that a pair may be missing.
+    pub(super) fn has_moved(&self, body: &Body) -> bool {
+        let far = 0.5 * WATCHED * body.lattice.spacing;
+        self.searched.iter().any(|&((row, place), [x, z])| {
+            let now = body.position(row, place);
+            let (x, z) = (now[0] - x, now[1] - z);
+            x * x + z * z > far * far
+        })
+    }
+
+    /// Finds all pairs. Those that were known keep what they carry.
+    pub(super) fn search(&mut self, body: &Body, law: &ContactLaw) {
+        self.searched = body
+            .particles()
+            .filter(|&(row, place)| !body.is_held_all_round(row, place))
+            .map(|(row, place)| ((row, place), body.position(row, place)))
+            .collect();
+        let mut found = self.broken_bonds(body);
+        self.add_near(body, (1.0 + WATCHED) * law.diameter, &mut found);
+        found.sort_unstable_by_key(|pair| pair.ends);
+        for pair in &mut found {
+            if let Ok(old) = self.pairs.binary_search_by_key(&pair.ends, |old| old.ends) {
+                let Pair {
+                    push, drag, slide, ..
+                } = self.pairs[old];
+                *pair = Pair {
+                    push,
+                    drag,
+                    slide,
+                    ..*pair
+                };
+            }
+        }
+        self.pairs = found;
+    }
+
+    /// Pairs that a bond held.
+    fn broken_bonds(&self, body: &Body) -> Vec<Pair> {
+        let mut found = Vec::new();
+        for &((row, place), _) in &self.searched {
+            for kind in 0..3 {
+                let bond = (row, place, kind);
+                if body.rows[row].weights[kind][place] > 0.0 && body.is_broken(bond) {
+                    let ends = [(row, place), body.other_end(row, place, kind)];
+                    found.push(Pair::new(ends, Some(kind)));
+                }
+            }
+        }
+        found
+    }
+
+    /// Pairs that no bond held, by cells of a square grid.
+    fn add_near(&self, body: &Body, reach: f64, found: &mut Vec<Pair>) {
+        let cell = |[x, z]: [f64; 2]| ((x / reach).floor() as i64, (z / reach).floor() as i64);
+        let mut cells: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
+        for (index, &(_, position)) in self.searched.iter().enumerate() {
+            cells.entry(cell(position)).or_default().push(index);
+        }
+        for (index, &(end, position)) in self.searched.iter().enumerate() {
+            let bonded = body.bonded_to(end);
+            let (x, z) = cell(position);
+            for near in (-1..=1).flat_map(|i| (-1..=1).map(move |k| (x + i, z + k))) {
+                for &other in cells.get(&near).map_or(&[][..], Vec::as_slice) {
+                    let (other_end, at) = self.searched[other];
+                    let (dx, dz) = (at[0] - position[0], at[1] - position[1]);
+                    let is_near = dx * dx + dz * dz < reach * reach;
+                    if other > index && is_near && !bonded.contains(&other_end) {
+                        found.push(Pair::new([end, other_end], None));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Forces of all pairs at the positions and velocities after a step [s].
+    pub(super) fn update(&mut self, body: &Body, law: &ContactLaw, step: f64) {
+        for pair in &mut self.pairs {
+            self.lost += pair.update(body, law, step);
+        }
+    }
+
+    /// Forces on particles, in the order of the pairs.
+    pub(super) fn loads(&self, body: &Body, law: &ContactLaw) -> Vec<Load> {
+        let mut loads = Vec::new();
+        for pair in self
+            .pairs
+            .iter()
+            .filter(|pair| pair.push > 0.0 || pair.drag != 0.0)
+        {
+            let meeting = pair.meeting(body, law);
+            let [x, z] = meeting.normal;
+            // The spring of a broken bond pushes by itself.
+            let along = if pair.bond.is_some() {
+                pair.drag
+            } else {
+                pair.push
+            };
+            let across = -law.across * meeting.stiffness * pair.slide;
+            let force = [along * x - across * z, along * z + across * x];
+            let moment = -0.5 * meeting.distance * across;
+            for ((row, place), sign) in pair.ends.into_iter().zip([-1.0, 1.0]) {
+                loads.push(Load {
+                    row,
+                    place,
+                    force: force.map(|part| sign * part),
+                    moment,
+                });
+            }
+        }
+        loads
+    }
+
+    /// Energy of the springs of all pairs [J per m], without that of bonds.
+    pub(super) fn energy(&self, body: &Body, law: &ContactLaw) -> f64 {
+        let of = |pair: &Pair| {
+            let meeting = pair.meeting(body, law);
+            let depth = (meeting.reach - meeting.distance).max(0.0);
+            let along = if pair.bond.is_some() {
+                0.0
+            } else {
+                depth * depth
+            };
+            0.5 * meeting.stiffness * (along + law.across * pair.slide * pair.slide)
+        };
+        self.pairs.iter().map(of).sum()
+    }
+}
+
+impl Pair {
+    fn new(ends: [At; 2], bond: Option<usize>) -> Self {
+        Self {
+            ends,
+            bond,
+            push: 0.0,
+            drag: 0.0,
+            slide: 0.0,
+        }
+    }
+
+    fn meeting(&self, body: &Body, law: &ContactLaw) -> Meeting {
+        let [a, b] = self.ends.map(|(row, place)| body.position(row, place));
+        let (x, z) = (b[0] - a[0], b[1] - a[1]);
+        let distance = (x * x + z * z).sqrt().max(f64::MIN_POSITIVE);
+        let (reach, stiffness) = match self.bond {
+            None => (law.diameter, law.stiffness),
+            Some(kind) => {
+                let (row, place) = self.ends[0];
+                let rest = body.rest(row, place, kind);
+                (rest.length, rest.weight * body.lattice.normal)
+            }
+        };
+        Meeting {
+            normal: [x / distance, z / distance],
+            distance,
+            reach,
+            stiffness,
+        }
+    }
+
+    /// Computes the forces after a step [s], and returns the energy that damping and friction took in it [J per m].
+    fn update(&mut self, body: &Body, law: &ContactLaw, step: f64) -> f64 {
+        let meeting = self.meeting(body, law);
+        let depth = meeting.reach - meeting.distance;
+        let (drag, slide) = (self.drag, self.slide);
+        if depth <= 0.0 && drag == 0.0 && slide == 0.0 {
+            self.push = 0.0;
+            return 0.0;
+        }
+        let [apart, past] = self.speeds(body, &meeting);
+        let spring = law.across * meeting.stiffness;
+        let trial = slide + past * step;
+        if depth > 0.0 {
+            let elastic = meeting.stiffness * depth;
+            let damping = 2.0 * law.damping * (meeting.stiffness * self.mass(body)).sqrt();
+            self.push = (elastic - damping * apart).max(0.0);
+            self.drag = self.push - elastic;
+            let most = law.friction * self.push / spring;
+            self.slide = trial.clamp(-most, most);
+        } else {
+            (self.push, self.drag, self.slide) = (0.0, 0.0, 0.0);
+        }
+        // Work of the mean forces of both steps, less what the springs keep.
+        let damped = -0.5 * (drag + self.drag) * apart * step;
+        damped + 0.5 * spring * (slide + self.slide) * (trial - self.slide)
+    }
+
+    /// Speeds at which the centres part, and at which the second particle slides past the first [m/s].
+    fn speeds(&self, body: &Body, meeting: &Meeting) -> [f64; 2] {
+        let [a, b] = self.ends.map(|(row, place)| {
+            let motion = &body.motion[row];
+            [motion.x[place], motion.z[place], motion.spin[place]]
+        });
+        let ([x, z], [dx, dz]) = (meeting.normal, [b[0] - a[0], b[1] - a[1]]);
+        let rolling = 0.5 * meeting.distance * (a[2] + b[2]);
+        [dx * x + dz * z, dz * x - dx * z - rolling]
+    }
+
+    /// Mass of the motion of both against each other [kg per m].
+    fn mass(&self, body: &Body) -> f64 {
+        let [a, b] = self
+            .ends
+            .map(|(row, place)| body.rows[row].inverse_mass[place]);
+        if a + b > 0.0 { 1.0 / (a + b) } else { 0.0 }
+    }
+}
+
+impl Body {
+    /// Whether six whole bonds hold a particle.
+    fn is_held_all_round(&self, row: usize, place: usize) -> bool {
+        let mut bonds = self.bonds_of(row, place).into_iter();
+        bonds.all(|bond| bond.is_some_and(|bond| self.weight(bond) > 0.0 && !self.is_broken(bond)))
+    }
+
+    /// Particles that a particle has, or had, a bond with.
+    fn bonded_to(&self, end: At) -> BTreeSet<At> {
+        let mut others = BTreeSet::new();
+        for bond in self.bonds_of(end.0, end.1).into_iter().flatten() {
+            let (row, place, kind) = bond;
+            if self.weight(bond) > 0.0 {
+                let ends = [(row, place), self.other_end(row, place, kind)];
+                others.extend(ends.into_iter().filter(|other| *other != end));
+            }
+        }
+        others
+    }
+}

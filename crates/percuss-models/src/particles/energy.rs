@@ -1,0 +1,105 @@
+//! Energies and momentum of a body.
+
+use rayon::prelude::*;
+
+use super::{
+    body::{Body, Damage},
+    step::{LEAST_ROWS, Load, Sweep},
+};
+
+/// Energies [J per m].
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct BodySums {
+    pub(super) kinetic: f64,
+    pub(super) elastic: f64,
+    pub(super) fracture: f64,
+}
+
+impl Body {
+    /// Energies now, the velocities taken half a step on under the same loads.
+    pub(super) fn sums(&self, step: f64, loads: &[Load]) -> BodySums {
+        let rows: Vec<BodySums> = (0..self.rows.len())
+            .into_par_iter()
+            .with_min_len(LEAST_ROWS)
+            .map(|row| self.row_sums(row, step, loads))
+            .collect();
+        let mut sums = BodySums::default();
+        for row in rows {
+            sums.kinetic += row.kinetic;
+            sums.elastic += row.elastic;
+            sums.fracture += row.fracture;
+        }
+        sums
+    }
+
+    /// Kinetic energy as `½ m v₋·v₊` of the velocities half a step before and after, with which leapfrog conserves the energy of
+    /// linear springs exactly.
+    fn row_sums(&self, row: usize, step: f64, loads: &[Load]) -> BodySums {
+        let springs = self.springs();
+        let mut sweep = Sweep::new(self, &springs, row);
+        sweep.next(self, &springs, row, loads);
+        let mut total = sweep.total;
+        if self.is_held(row) {
+            total.z.fill(0.0);
+        }
+        let (make, motion) = (&self.rows[row], &self.motion[row]);
+        let mut sums = BodySums {
+            fracture: self.state[row].lost + sweep.lost,
+            ..BodySums::default()
+        };
+        for place in 1..self.stride - 1 {
+            let mass = make.mass[place];
+            if mass == 0.0 {
+                continue;
+            }
+            let inertia = 1.0 / make.inverse_inertia[place];
+            for (mass, speed, force) in [
+                (mass, motion.x[place], total.x[place]),
+                (mass, motion.z[place], total.z[place]),
+                (inertia, motion.spin[place], total.moment[place]),
+            ] {
+                sums.kinetic += 0.5 * speed * (mass * speed + step * force);
+            }
+            for kind in 0..3 {
+                let weight = make.weights[kind][place];
+                if weight > 0.0 {
+                    let found = self.bond_of(row, place, kind);
+                    sums.elastic += found.energy;
+                }
+            }
+        }
+        sums
+    }
+
+    /// Energy that softening takes from the bonds of a row in the step that ends with a damage [J per m].
+    pub(super) fn loss(&self, row: usize, damage: &Damage) -> f64 {
+        let Some(softening) = &self.softening else {
+            return 0.0;
+        };
+        let before = &self.state[row].damage;
+        let mut lost = 0.0;
+        for kind in 0..3 {
+            let (old, new) = (&before.worst[kind], &damage.worst[kind]);
+            for place in 1..self.stride - 1 {
+                // Few bonds soften in a step.
+                if new[place] <= old[place] || new[place] <= 1.0 {
+                    continue;
+                }
+                let rest = self.rest(row, place, kind);
+                let normal = rest.weight * self.lattice.normal;
+                let from = [before.measure[kind][place], old[place]];
+                let to = [damage.measure[kind][place], new[place]];
+                lost += softening.taken(rest.length, normal, from, to);
+            }
+        }
+        lost
+    }
+
+    /// Momentum along the direction of impact half a step ago [N s per m].
+    pub(super) fn momentum(&self) -> f64 {
+        let rows = self.rows.iter().zip(&self.motion);
+        rows.flat_map(|(make, motion)| make.mass.iter().zip(&motion.z))
+            .map(|(mass, velocity)| mass * velocity)
+            .sum()
+    }
+}

@@ -1,0 +1,103 @@
+//! What cracks make of a body: damage of its particles, and its pieces.
+
+use super::body::Body;
+
+/// A piece of a body that no bond holds to the rest.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Piece {
+    pub(super) particles: usize,
+    /// Mass [kg per m].
+    pub(super) mass: f64,
+    /// Momentum along the direction of impact [N s per m].
+    pub(super) momentum: f64,
+}
+
+impl Body {
+    /// Whether a bond carries no tension any more.
+    pub(super) fn is_broken(&self, (row, place, kind): (usize, usize, usize)) -> bool {
+        let end = self.softening.map_or(f64::INFINITY, |law| law.end);
+        let worst = self.state[row].damage.worst[kind].get(place);
+        worst.is_some_and(|worst| *worst >= end)
+    }
+
+    /// The bonds of a particle, by their first one, place and kind.
+    pub(super) fn bonds_of(&self, row: usize, place: usize) -> [Option<(usize, usize, usize)>; 6] {
+        let own = |kind| Some((row, place, kind));
+        let above = row.checked_sub(1).map(|above| (above, place - above % 2));
+        [
+            own(0),
+            own(1),
+            own(2),
+            Some((row, place - 1, 0)),
+            above.map(|(above, before)| (above, before, 1)),
+            above.map(|(above, before)| (above, before + 1, 2)),
+        ]
+    }
+
+    pub(super) fn weight(&self, (row, place, kind): (usize, usize, usize)) -> f64 {
+        self.rows[row].weights[kind][place]
+    }
+
+    /// Part of the springs of a particle's bonds that softening has taken.
+    pub(super) fn damage(&self, row: usize, place: usize) -> f64 {
+        let Some(law) = &self.softening else {
+            return 0.0;
+        };
+        let (mut all, mut left) = (0.0, 0.0);
+        for bond in self.bonds_of(row, place).into_iter().flatten() {
+            let (row, place, kind) = bond;
+            let weight = self.weight(bond);
+            all += weight;
+            left += weight * law.integrity(self.state[row].damage.worst[kind][place]);
+        }
+        if all > 0.0 { 1.0 - left / all } else { 0.0 }
+    }
+
+    /// Number of bonds that are broken.
+    pub(super) fn broken_bonds(&self) -> usize {
+        let bonds = self
+            .particles()
+            .flat_map(|(row, place)| [0, 1, 2].map(|kind| (row, place, kind)));
+        bonds
+            .filter(|&bond| self.weight(bond) > 0.0 && self.is_broken(bond))
+            .count()
+    }
+
+    /// Pieces that whole bonds hold together, largest first; equal ones in the order of their first particles.
+    pub(super) fn pieces(&self) -> Vec<Piece> {
+        let index = |row: usize, place: usize| row * self.stride + place;
+        let mut parent: Vec<usize> = (0..self.rows.len() * self.stride).collect();
+        for (row, place) in self.particles() {
+            for kind in 0..3 {
+                let bond = (row, place, kind);
+                if self.weight(bond) == 0.0 || self.is_broken(bond) {
+                    continue;
+                }
+                let (other_row, other) = self.other_end(row, place, kind);
+                let a = root(&mut parent, index(row, place));
+                let b = root(&mut parent, index(other_row, other));
+                parent[a.max(b)] = a.min(b);
+            }
+        }
+        let mut pieces = vec![Piece::default(); parent.len()];
+        for (row, place) in self.particles() {
+            let piece = &mut pieces[root(&mut parent, index(row, place))];
+            let mass = self.rows[row].mass[place];
+            piece.particles += 1;
+            piece.mass += mass;
+            piece.momentum += mass * self.motion[row].z[place];
+        }
+        pieces.retain(|piece| piece.particles > 0);
+        pieces.sort_by(|a, b| b.mass.total_cmp(&a.mass));
+        pieces
+    }
+}
+
+/// First particle of a piece; on the way there every second step is made shorter.
+fn root(parent: &mut [usize], mut at: usize) -> usize {
+    while parent[at] != at {
+        parent[at] = parent[parent[at]];
+        at = parent[at];
+    }
+    at
+}
