@@ -256,6 +256,28 @@ pub fn settled<T>(numbers: T) -> T {
     std::hint::black_box(numbers)
 }
 
+/// Whether a number is not 0 in any lane, of numbers of which none is −0.
+#[inline(always)]
+pub fn any<R: Real>(numbers: &R) -> bool {
+    let mut bits = 0;
+    for l in 0..R::LANES {
+        bits |= numbers.lane(l).to_bits();
+    }
+    bits != 0
+}
+
+/// A bit for each lane that has a 1 and not a 0.
+#[inline(always)]
+pub fn bits_of(flags: &Lanes) -> u8 {
+    let mut bits = [0; LANES];
+    for (l, bit) in bits.iter_mut().enumerate() {
+        *bit = if flags[l] > 0.0 { 1 << l } else { 0 };
+    }
+    // In memory: a compiler would look for them in single lanes.
+    let [a, b, c, d, e, f, g, h]: [u64; LANES] = settled(bits);
+    (((a | e) | (c | g)) | ((b | f) | (d | h))) as u8
+}
+
 /// The larger of two numbers of which neither is undefined.
 #[inline(always)]
 pub fn larger(a: f64, b: f64) -> f64 {

@@ -78,29 +78,34 @@ impl<const LINEAR: bool> NullaryFnOnce for One<'_, LINEAR> {
         let count = springs.len();
         let time_step = self.problem.time_step;
         // A column for every constant, so that those of neighbours load together.
-        let column = |of: fn(&Spring) -> f64| springs.iter().map(of).collect::<Vec<f64>>();
+        let column = |of: fn(&Spring) -> f64| Column::of(springs.iter().map(of));
         let (kick, per_length) = (column(|s| s.kick), column(|s| s.per_length));
         let (stiffness, coefficient) = (column(|s| s.stiffness), column(|s| s.coefficient));
         let exponents = column(|s| s.exponent);
         // The last place is the wall, and nothing pulls at the front of the chain.
-        let (mut positions, mut velocities) = (vec![0.0; count + 1], vec![0.0; count]);
-        let (mut strains, mut forces) = (vec![0.0; count], vec![0.0; count + 1]);
-        let (mut first, mut second) = (vec![0.0; count], vec![0.0; count]);
-        velocities[..self.problem.rod].fill(self.speed);
+        let (mut positions, mut velocities) = (Column::new(count + 1), Column::new(count));
+        let (mut strains, mut forces) = (Column::new(count), Column::new(LANES + count));
+        let (mut first, mut second) = (Column::new(count), Column::new(count));
         // Slices of one length, so that no loop has bounds to check.
-        let (kick, per_length) = (&kick[..count], &per_length[..count]);
-        let (stiffness, coefficient) = (&stiffness[..count], &coefficient[..count]);
-        let (exponents, strains) = (&exponents[..count], &mut strains[..count]);
-        let (first, second) = (&mut first[..count], &mut second[..count]);
+        let (kick, per_length) = (&kick.all()[..count], &per_length.all()[..count]);
+        let (stiffness, coefficient) = (&stiffness.all()[..count], &coefficient.all()[..count]);
+        let (exponents, strains) = (&exponents.all()[..count], &mut strains.all_mut()[..count]);
+        let first = &mut first.all_mut()[..count];
+        let second = &mut second.all_mut()[..count];
+        let (positions, velocities) = (positions.all_mut(), velocities.all_mut());
+        // The forces ahead of the masses begin a cache line: they are stored, too.
+        let forces = &mut forces.all_mut()[LANES - 1..];
+        velocities[..self.problem.rod].fill(self.speed);
         for _ in 0..self.problem.steps {
             let (here, next) = (&positions[..count], &positions[1..][..count]);
             let ahead = &mut forces[1..][..count];
             for i in 0..count {
-                strains[i] = (here[i] - next[i]) * per_length[i];
+                let strain = (here[i] - next[i]) * per_length[i];
                 if LINEAR {
-                    ahead[i] = stiffness[i] * strains[i];
+                    ahead[i] = stiffness[i] * strain;
                 } else {
-                    let Split { binary, ratio } = Split::of(strains[i].abs());
+                    strains[i] = strain;
+                    let Split { binary, ratio } = Split::of(strain.abs());
                     (first[i], second[i]) = (binary, ratio);
                 }
             }
@@ -125,8 +130,45 @@ impl<const LINEAR: bool> NullaryFnOnce for One<'_, LINEAR> {
                 positions[i] = velocities[i].mul_add(time_step, positions[i]);
             }
         }
-        positions.truncate(count);
-        positions
+        positions[..count].to_vec()
+    }
+}
+
+/// Numbers of which the first one begins a cache line: a load of eight would otherwise touch two.
+struct Column {
+    room: Vec<f64>,
+    first: usize,
+    count: usize,
+}
+
+impl Column {
+    fn new(count: usize) -> Self {
+        let room = vec![0.0; count + LANES];
+        let first = room.as_ptr().align_offset(align_of::<Lanes>());
+        Self {
+            // An address that no number of places aligns is used as it is.
+            first: first.min(LANES),
+            room,
+            count,
+        }
+    }
+
+    fn of(numbers: impl ExactSizeIterator<Item = f64>) -> Self {
+        let mut column = Self::new(numbers.len());
+        for (place, number) in column.all_mut().iter_mut().zip(numbers) {
+            *place = number;
+        }
+        column
+    }
+
+    #[inline(always)]
+    fn all(&self) -> &[f64] {
+        &self.room[self.first..][..self.count]
+    }
+
+    #[inline(always)]
+    fn all_mut(&mut self) -> &mut [f64] {
+        &mut self.room[self.first..][..self.count]
     }
 }
 

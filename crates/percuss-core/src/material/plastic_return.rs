@@ -2,7 +2,7 @@
 
 use super::{LaneStrength, LaneTrial, YieldPoint};
 use crate::{
-    lanes::{PerLane, Real, larger, smaller},
+    lanes::{PerLane, Real, any, larger, smaller},
     power::exponential,
 };
 
@@ -82,45 +82,38 @@ impl Tried {
 }
 
 /// Solves `q − M Δ = Y(ε_p + Δ, Δ/Δt, T)` for the plastic strain Δ, where `q` is the trial stress and `M` its fall per plastic strain; 0
-/// where the trial stress is elastic, and in places whose bits are not set, which stay as they are.
+/// where the trial stress is elastic, and in lanes with a 0 in `places`, which stay as they are; the others have a 1.
 ///
 /// The root is bracketed by 0 and q/M and found by Newton's method, over the logarithm of Δ where a step over Δ leaves the bracket. As
 /// long as flow lasts, the slow flow stress is not needed: it is evaluated only when a body seems to have stopped flowing.
 ///
 /// One body or eight of the same law side by side, with the same bits; for code that has been dispatched to an instruction set. A law of
 /// one lane is that of all.
+// What holds in a lane is a number, 1 or 0: bits of one number would be put together one by one.
 #[inline(always)]
 pub fn plastic_increments<R: Real, L>(
     law: &L,
     point: &mut YieldPoint<R>,
     trial: &LaneTrial<R>,
-    places: u8,
+    places: &R,
 ) -> R
 where
     L: PerLane,
     L::One: LaneStrength,
 {
     let mut result = R::default();
-    let mut search = Search::start(law, point, trial);
-    let mut open = places & (u8::MAX >> (u8::BITS as usize - R::LANES));
-    search.find_slow_points(law, point, trial, open);
-    open &= !search.bracket(point, trial);
+    let mut search = Search::start(law, point, trial, places);
+    search.find_slow_points(law, point, trial);
+    search.bracket(point, trial);
     let mut left = MOST_ITERATIONS;
-    while open != 0 {
+    while any(&search.open) {
         left -= 1;
-        let (tried, last) = search.attempt(law, trial);
-        let ends = if left == 0 { open } else { open & last };
-        if ends != 0 {
-            search.end(law, trial, &tried, (&mut *point, &mut result), ends);
-        }
-        open &= !ends;
-        if open != 0 {
-            let outside = search.narrow(&tried) & open;
-            for l in (0..R::LANES).filter(|l| outside >> l & 1 == 1) {
-                let law = law.lane(l);
-                if !search.step_inside(l, &law, point, &trial.lane(l), &tried.lane(l)) {
-                    open &= !(1 << l);
-                }
+        let tried = search.attempt(law, trial, left == 0);
+        search.end(law, trial, &tried, (&mut *point, &mut result));
+        if any(&search.open) {
+            let outside = search.narrow(&tried);
+            if any(&outside) {
+                search.step_inside(law, point, trial, &tried, &outside);
             }
         }
     }
@@ -135,18 +128,23 @@ crate::per_lane! {
         increment: R,
         low: R,
         high: R,
+        /// 1 where it goes on, or 0.
+        open: R,
     }
 }
 
 impl<R: Real> Search<R> {
     /// From where the tangents of the yield surface in the points meet the trial stresses.
     #[inline(always)]
-    fn start<L>(law: &L, point: &YieldPoint<R>, trial: &LaneTrial<R>) -> Self
+    fn start<L>(law: &L, point: &YieldPoint<R>, trial: &LaneTrial<R>, places: &R) -> Self
     where
         L: PerLane,
         L::One: LaneStrength,
     {
-        let mut search = Self::default();
+        let mut search = Self {
+            open: *places,
+            ..Self::default()
+        };
         for l in 0..R::LANES {
             let trial = trial.lane(l);
             search
@@ -160,23 +158,19 @@ impl<R: Real> Search<R> {
 
     /// Finds the slow flow stress of those that seem to have stopped flowing.
     #[inline(always)]
-    fn find_slow_points<L>(
-        &mut self,
-        law: &L,
-        point: &mut YieldPoint<R>,
-        trial: &LaneTrial<R>,
-        places: u8,
-    ) where
+    fn find_slow_points<L>(&mut self, law: &L, point: &mut YieldPoint<R>, trial: &LaneTrial<R>)
+    where
         L: PerLane,
         L::One: LaneStrength,
     {
-        let mut unknown = 0;
+        let mut unknown = R::default();
         for l in 0..R::LANES {
             let seems_elastic = self.increment.lane(l) <= 0.0;
-            unknown |= u8::from(seems_elastic & !point.lane(l).is_slow()) << l;
+            let is_unknown = seems_elastic & !point.lane(l).is_slow();
+            let open = self.open.lane(l);
+            unknown.set_lane(l, if is_unknown { open } else { 0.0 });
         }
-        unknown &= places;
-        if unknown == 0 {
+        if !any(&unknown) {
             return;
         }
         let mut slow = YieldPoint::<R>::default();
@@ -185,30 +179,30 @@ impl<R: Real> Search<R> {
         }
         for l in 0..R::LANES {
             let before = point.lane(l);
-            point.choose(l, unknown >> l & 1 == 1, slow.lane(l), before);
+            point.choose(l, unknown.lane(l) > 0.0, slow.lane(l), before);
             let first = point.lane(l).tangent_increment(&trial.lane(l));
             self.increment.set_lane(l, first);
         }
     }
 
-    /// Sets the limits; returns a bit for each stress that is elastic.
+    /// Sets the limits, and ends where the stress is elastic.
     #[inline(always)]
-    fn bracket(&mut self, point: &YieldPoint<R>, trial: &LaneTrial<R>) -> u8 {
-        let mut elastic = 0;
+    fn bracket(&mut self, point: &YieldPoint<R>, trial: &LaneTrial<R>) {
         for l in 0..R::LANES {
             let trial = trial.lane(l);
-            elastic |= u8::from(point.lane(l).holds(trial.stress)) << l;
+            let is_elastic = point.lane(l).holds(trial.stress);
+            let open = self.open.lane(l);
+            self.open.set_lane(l, if is_elastic { 0.0 } else { open });
             let most = trial.stress / trial.modulus;
             self.high.set_lane(l, most);
             let first = smaller(self.increment.lane(l), most);
             self.increment.set_lane(l, first);
         }
-        elastic
     }
 
-    /// Evaluates the increments; returns a bit for each where the next step of Newton's method may be the last one.
+    /// Evaluates the increments; the next step may be the last one where that of Newton's method may, or everywhere.
     #[inline(always)]
-    fn attempt<L>(&self, law: &L, trial: &LaneTrial<R>) -> (Tried<R>, u8)
+    fn attempt<L>(&self, law: &L, trial: &LaneTrial<R>, must_end: bool) -> Tried<R>
     where
         L: PerLane,
         L::One: LaneStrength,
@@ -219,28 +213,26 @@ impl<R: Real> Search<R> {
             let one = Tried::of(&law, search.thermal, &trial.lane(l), search.increment);
             tried.set_lane(l, one);
         }
-        let mut last = 0;
-        for l in 0..R::LANES {
-            last |= u8::from(tried.lane(l).last > 0.0) << l;
+        if must_end {
+            tried.last = R::all(1.0);
         }
-        (tried, last)
+        tried
     }
 
-    /// Takes the last step in those places whose bits are set.
+    /// Takes the last step where it is one, and ends there.
     #[inline(always)]
     fn end<L>(
-        &self,
+        &mut self,
         law: &L,
         trial: &LaneTrial<R>,
         tried: &Tried<R>,
         (point, result): (&mut YieldPoint<R>, &mut R),
-        places: u8,
     ) where
         L: PerLane,
         L::One: LaneStrength,
     {
         let mut end = YieldPoint::<R>::default();
-        let mut found = R::default();
+        let (mut found, mut ends) = (R::default(), R::default());
         for l in 0..R::LANES {
             let (tried, search) = (tried.lane(l), self.lane(l));
             let newton = search.increment + tried.step;
@@ -248,19 +240,22 @@ impl<R: Real> Search<R> {
             found.set_lane(l, inside);
             let strain_only = law.lane(l).depends_on_strain_only();
             end.set_lane(l, tried.end(&trial.lane(l), inside, strain_only));
+            ends.set_lane(l, if tried.last > 0.0 { search.open } else { 0.0 });
         }
         for l in 0..R::LANES {
-            let ends = places >> l & 1 == 1;
+            let ends_here = ends.lane(l) > 0.0;
             let (found_before, before) = (result.lane(l), point.lane(l));
-            result.choose(l, ends, found.lane(l), found_before);
-            point.choose(l, ends, end.lane(l), before);
+            result.choose(l, ends_here, found.lane(l), found_before);
+            point.choose(l, ends_here, end.lane(l), before);
+            let open = self.open.lane(l);
+            self.open.set_lane(l, if ends_here { 0.0 } else { open });
         }
     }
 
-    /// Narrows the limits and takes a step of Newton's method; returns a bit for each that leaves them.
+    /// Narrows the limits and takes a step of Newton's method; gives 1 where it leaves them and the search goes on, or 0.
     #[inline(always)]
-    fn narrow(&mut self, tried: &Tried<R>) -> u8 {
-        let mut outside = 0;
+    fn narrow(&mut self, tried: &Tried<R>) -> R {
+        let mut outside = R::default();
         for l in 0..R::LANES {
             let (tried, search) = (tried.lane(l), self.lane(l));
             let is_below = tried.excess > 0.0;
@@ -275,7 +270,8 @@ impl<R: Real> Search<R> {
                 search.increment
             };
             let newton = search.increment + tried.step;
-            outside |= u8::from(!((low < newton) & (newton < high))) << l;
+            let is_inside = (low < newton) & (newton < high);
+            outside.set_lane(l, if is_inside { 0.0 } else { search.open });
             self.low.set_lane(l, low);
             self.high.set_lane(l, high);
             self.increment.set_lane(l, newton);
@@ -283,9 +279,30 @@ impl<R: Real> Search<R> {
         outside
     }
 
+    /// Other steps instead of those that leave the limits; ends where the body turns out to be elastic.
+    #[inline(always)]
+    fn step_inside<L>(
+        &mut self,
+        law: &L,
+        point: &mut YieldPoint<R>,
+        trial: &LaneTrial<R>,
+        tried: &Tried<R>,
+        outside: &R,
+    ) where
+        L: PerLane,
+        L::One: LaneStrength,
+    {
+        for l in (0..R::LANES).filter(|l| outside.lane(*l) > 0.0) {
+            let law = law.lane(l);
+            if !self.step_lane_inside(l, &law, point, &trial.lane(l), &tried.lane(l)) {
+                self.open.set_lane(l, 0.0);
+            }
+        }
+    }
+
     /// Another step instead of one that leaves the limits; false where the body turns out to be elastic.
     #[inline(always)]
-    fn step_inside(
+    fn step_lane_inside(
         &mut self,
         l: usize,
         law: &impl LaneStrength,
@@ -298,6 +315,7 @@ impl<R: Real> Search<R> {
             increment: newton,
             low,
             high,
+            ..
         } = self.lane(l);
         if newton <= 0.0 && low == 0.0 && !point.lane(l).is_slow() {
             let slow = trial.slow(law, thermal);

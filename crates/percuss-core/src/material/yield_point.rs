@@ -157,7 +157,7 @@ impl LawVisitor<f64> for Return<'_> {
         L: PerLane + Copy + Default,
         L::One: LaneStrength,
     {
-        plastic_increments(law, self.point, self.trial, 1)
+        plastic_increments(law, self.point, self.trial, &1.0)
     }
 }
 
@@ -224,7 +224,7 @@ impl YieldPoint {
                 point: self,
                 trial: &trial,
             }),
-            None => plastic_increments(&Called(strength), self, &trial, 1),
+            None => plastic_increments(&Called(strength), self, &trial, &1.0),
         }
     }
 

@@ -2,7 +2,7 @@ use pulp::{Arch, NullaryFnOnce};
 
 use super::*;
 use crate::{
-    lanes::{LANES, Lanes},
+    lanes::{LANES, Lanes, lanes},
     material::{LaneLaw, LawKind, Material, plastic_return::TOLERANCE},
 };
 
@@ -171,7 +171,7 @@ const KINDS: [LawKind; 4] = [
 
 /// Returns of eight bodies of one kind of law side by side.
 #[derive(Clone, Copy)]
-struct SideBySide<'a>(&'a YieldPoint<Lanes>, &'a LaneTrial<Lanes>, u8);
+struct SideBySide<'a>(&'a YieldPoint<Lanes>, &'a LaneTrial<Lanes>, Lanes);
 
 impl LawVisitor<Lanes> for SideBySide<'_> {
     type Output = Vec<(Lanes, YieldPoint<Lanes>)>;
@@ -194,7 +194,7 @@ impl LawVisitor<Lanes> for SideBySide<'_> {
                 let SideBySide(point, trial, places) = self.0;
                 let mut point = *point;
                 (
-                    plastic_increments(&self.1, &mut point, trial, places),
+                    plastic_increments(&self.1, &mut point, trial, &places),
                     point,
                 )
             }
@@ -261,7 +261,11 @@ fn eight_returns_side_by_side_have_the_bits_of_each_by_itself() {
                         elastic += usize::from(expected[l] == 0.0);
                     }
                 }
-                let found = in_lanes.visit(SideBySide(&points, &trials, places));
+                let found = in_lanes.visit(SideBySide(
+                    &points,
+                    &trials,
+                    lanes(|l| f64::from(places >> l & 1)),
+                ));
                 for (increments, ends) in &found {
                     for l in 0..LANES {
                         assert_eq!(

@@ -87,11 +87,7 @@ impl Law {
         let mut increments = Lanes::all(0.0);
         if flows.contains(&1.0) {
             let before = lanes(|l| block.yield_point.lane(l).stress());
-            let mut places = 0;
-            for l in 0..LANES {
-                places |= u8::from(flows[l] > 0.0) << l;
-            }
-            increments = settled(self.flows(block, &size, places, time_step));
+            increments = settled(self.flows(block, &size, &flows, time_step));
             let modulus = 3.0 * self.shear_modulus;
             // Without flow the stress stays as it is; one of 0 has no direction to return along.
             let after = lanes(|l| size[l] - modulus * increments[l]);
@@ -181,9 +177,9 @@ impl Law {
         }
     }
 
-    /// Returns trial stresses to the yield surface, radially, in lanes that flow; gives the increments of plastic strain, 0 in others.
+    /// Returns trial stresses to the yield surface, radially, in lanes that flow, with a 1 in `flows`; gives the increments of plastic strain, 0 in others.
     #[inline(always)]
-    fn flows(&self, block: &mut Block, size: &Lanes, flows: u8, time_step: f64) -> Lanes {
+    fn flows(&self, block: &mut Block, size: &Lanes, flows: &Lanes, time_step: f64) -> Lanes {
         let per_time = if self.rate_effects {
             1.0 / time_step
         } else {
@@ -213,9 +209,15 @@ impl Law {
 
     /// The same for a law of the caller's own.
     #[cold]
-    fn flow_one_by_one(&self, block: &mut Block, size: &Lanes, flows: u8, time_step: f64) -> Lanes {
+    fn flow_one_by_one(
+        &self,
+        block: &mut Block,
+        size: &Lanes,
+        flows: &Lanes,
+        time_step: f64,
+    ) -> Lanes {
         let mut increments = Lanes::all(0.0);
-        for l in (0..LANES).filter(|l| flows >> l & 1 == 1) {
+        for l in (0..LANES).filter(|l| flows[*l] > 0.0) {
             let trial = Trial {
                 stress: size[l],
                 modulus: 3.0 * self.shear_modulus,
@@ -296,7 +298,7 @@ impl Law {
 struct Return<'a> {
     points: &'a mut YieldPoint<Lanes>,
     trial: &'a LaneTrial<Lanes>,
-    flows: u8,
+    flows: &'a Lanes,
 }
 
 impl LawVisitor<f64> for Return<'_> {

@@ -266,7 +266,7 @@ impl FlowTogether<'_> {
             flowing.plastic.set_lane(p, element.plastic);
             flowing.points.set_lane(p, element.yield_point);
         }
-        flowing.flow(u8::MAX);
+        flowing.flow(&Lanes::all(1.0));
         for (p, &place) in places[..count].iter().enumerate() {
             let element = &mut elements[place];
             element.spring = flowing.spring.lane(p);

@@ -48,9 +48,9 @@ where
     L: PerLane,
     L::One: LaneStrength,
 {
-    /// Returns the trial stresses to the yield surface; what is in places whose bits are not set stays as it is.
+    /// Returns the trial stresses to the yield surface in places with a 1; what is in those with a 0 stays as it is.
     #[inline(always)]
-    pub(super) fn flow(&mut self, places: u8) {
+    pub(super) fn flow(&mut self, places: &Lanes) {
         let (spring, plastic, constants) = (self.spring, self.plastic, self.constants);
         let per_time = self.per_time;
         let mut trial = LaneTrial::<Lanes>::default();

@@ -3,15 +3,20 @@
 use super::{bundle::Bundle, step::Step};
 use crate::{
     chain::flow::FlowingElements,
-    lanes::{LANES, PerLane},
+    lanes::{LANES, Lanes, PerLane},
     material::LaneStrength,
 };
 
 impl Bundle {
-    /// Lets an element of a body flow in those lanes whose bits are set.
+    /// Lets an element of a body flow in those lanes that have a 1.
     #[inline(always)]
-    pub(super) fn flow_in_place<L>(&mut self, law: &L, [b, e]: [usize; 2], lanes: u8, step: &Step)
-    where
+    pub(super) fn flow_in_place<L>(
+        &mut self,
+        law: &L,
+        [b, e]: [usize; 2],
+        lanes: &Lanes,
+        step: &Step,
+    ) where
         L: PerLane + Copy + Default,
         L::One: LaneStrength,
     {
@@ -66,7 +71,7 @@ impl Bundle {
             flowing.law.set_lane(p, law.lane(l));
             flowing.per_time.set_lane(p, step.rate.lane(l));
         }
-        flowing.flow(u8::MAX);
+        flowing.flow(&Lanes::all(1.0));
         for (p, &(element, lane)) in places.iter().enumerate() {
             let (e, l) = (element as usize, lane as usize % LANES);
             self.springs[e].set_lane(l, flowing.spring.lane(p));

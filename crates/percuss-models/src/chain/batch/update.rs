@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     chain::element::{Spring, approach_rate},
-    lanes::{LANES, Lanes, PerLane, larger, smaller},
+    lanes::{LANES, Lanes, PerLane, bits_of, lanes, larger, settled, smaller},
     material::{LaneStrength, LawVisitor},
     power::log_ratio,
 };
@@ -146,9 +146,10 @@ impl Bundle {
             if !self.marks[e].flowed {
                 continue;
             }
-            let lanes = self.flowing(e) & !self.marks[e].gone;
+            let flowing = self.flowing(e);
+            let lanes = bits_of(&flowing);
             if lanes.count_ones() >= MANY {
-                self.flow_in_place(law, [b, e], lanes, step);
+                self.flow_in_place(law, [b, e], &flowing, step);
             } else {
                 let places = SET_LANES[usize::from(lanes)].map(|lane| (e as u32, lane));
                 self.gathered[gathered..gathered + LANES].copy_from_slice(&places);
@@ -159,16 +160,20 @@ impl Bundle {
         self.settle(b, working);
     }
 
-    /// A bit for every lane in which an element flows after a response.
+    /// 1 in every lane in which an element flows after a response, 0 in the others.
     #[inline(always)]
-    fn flowing(&self, e: usize) -> u8 {
+    fn flowing(&self, e: usize) -> Lanes {
         let elastic_to = self.points[e].elastic_to();
-        let stress = self.springs[e].stress.0;
-        let mut flows = 0;
-        for l in 0..LANES {
-            flows |= u8::from(stress[l].abs() > elastic_to.0[l]) << l;
+        let stress = self.springs[e].stress;
+        let flows = |l: usize| stress[l].abs() > elastic_to[l];
+        let mut flowing = settled(lanes(|l| if flows(l) { 1.0 } else { 0.0 }));
+        let gone = self.marks[e].gone;
+        if gone != 0 {
+            for l in (0..LANES).filter(|l| gone >> l & 1 == 1) {
+                flowing[l] = 0.0;
+            }
         }
-        flows
+        flowing
     }
 
     /// Sets forces and stable steps of elements that flow or flowed, and adds up their plastic work.

@@ -114,16 +114,30 @@ impl NullaryFnOnce for Kick<'_> {
         if let Some(tip) = tip {
             rod.nodes.set_last(tip);
         }
-        let ratio = kick / rod.size.radial_mass();
-        let shears = rod.shears.each().map(|shears| shears.force);
-        let shears = shears.chain(std::iter::repeat(Lanes::all(0.0)));
-        let mut last = 0.0;
-        for (slices, ahead) in rod.slices.each_mut().zip(shears) {
-            let (own, behind) = (slices.radial_force, behind(&ahead, last));
-            let before = slices.radial_velocity;
-            slices.radial_velocity = lanes(|l| before[l] + (own[l] - behind[l] + ahead[l]) * ratio);
-            last = ahead[LANES - 1];
-        }
+        widen(rod, kick);
+    }
+}
+
+/// Collects the forces of the slices on the nodes and gives new velocities as [`Kick`] does, where nothing damps.
+#[inline(always)]
+pub(super) fn push(rod: &mut Rod, kick: f64) {
+    let forces = rod.slices.each().map(|slices| slices.axial_force);
+    rod.nodes.push(forces, kick, rod.slices.len());
+    widen(rod, kick);
+}
+
+/// New velocities of the widening of the slices.
+#[inline(always)]
+fn widen(rod: &mut Rod, kick: f64) {
+    let ratio = kick / rod.size.radial_mass();
+    let shears = rod.shears.each().map(|shears| shears.force);
+    let shears = shears.chain(std::iter::repeat(Lanes::all(0.0)));
+    let mut last = 0.0;
+    for (slices, ahead) in rod.slices.each_mut().zip(shears) {
+        let (own, behind) = (slices.radial_force, behind(&ahead, last));
+        let before = slices.radial_velocity;
+        slices.radial_velocity = lanes(|l| before[l] + (own[l] - behind[l] + ahead[l]) * ratio);
+        last = ahead[LANES - 1];
     }
 }
 

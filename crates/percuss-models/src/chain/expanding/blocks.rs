@@ -8,7 +8,7 @@ use crate::{
     solver::archive::Archive,
 };
 
-/// A row of structs in blocks of lanes. At least one lane behind the last struct is inert, so that a loop over blocks needs no remainder.
+/// A row of structs in blocks of lanes. Lanes behind the last struct are inert, so that a loop over blocks needs no remainder.
 #[derive(Debug)]
 pub(super) struct Blocks<T: PerLane> {
     blocks: Vec<T>,
@@ -28,13 +28,12 @@ where
             count: 0,
             inert,
         };
-        row.add_block();
         for one in all {
-            row.set(row.count, one);
-            row.count += 1;
             if row.count.is_multiple_of(LANES) {
                 row.add_block();
             }
+            row.set(row.count, one);
+            row.count += 1;
         }
         row
     }
@@ -61,7 +60,7 @@ where
         self.count == 0
     }
 
-    /// All blocks; the last one may have inert lanes only.
+    /// All blocks.
     #[inline(always)]
     pub(super) fn blocks(&self) -> &[T] {
         &self.blocks
@@ -89,15 +88,18 @@ where
         self.blocks[i / LANES].set_lane(i % LANES, one);
     }
 
+    #[inline(always)]
     pub(super) fn first(&self) -> Option<T::One> {
         (self.count > 0).then(|| self.get(0))
     }
 
+    #[inline(always)]
     pub(super) fn last(&self) -> Option<T::One> {
         (self.count > 0).then(|| self.get(self.count - 1))
     }
 
     /// Replaces the last struct, if there is one.
+    #[inline(always)]
     pub(super) fn set_last(&mut self, one: T::One) {
         if self.count > 0 {
             self.set(self.count - 1, one);
@@ -131,7 +133,7 @@ where
             self.set(i, self.inert);
         }
         self.count = count.min(self.count);
-        self.blocks.truncate(self.count / LANES + 1);
+        self.blocks.truncate(self.count.div_ceil(LANES));
     }
 
     /// Sum of a number over all structs, of which what is inert has 0.
@@ -221,7 +223,7 @@ mod tests {
             for left in (0..=count as usize).rev() {
                 assert_eq!(row.iter().collect::<Vec<_>>(), numbers[..left]);
                 let all: Vec<f64> = row.blocks().iter().flat_map(|block| block.0).collect();
-                assert!(all.len() > left);
+                assert!(all.len() >= left && all.len() < left + LANES);
                 assert!(all[left..].iter().all(|number| *number == -1.0));
                 assert_eq!(row.pop(), left.checked_sub(1).map(|last| numbers[last]));
             }

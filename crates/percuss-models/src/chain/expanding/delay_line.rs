@@ -73,9 +73,21 @@ impl DelayLine {
 
     /// Value at a place behind the sample of a number.
     fn interpolate(&self, place: &Place, before: i64) -> f64 {
-        let [a, b, c, d] = [-1, 0, 1, 2].map(|k| self.sample(before + k));
+        let [a, b, c, d] = self.four(before - 1);
         let [behind, ahead, slope_behind, slope_ahead] = place.weights;
         b * behind + c * ahead + 0.5 * (c - a) * slope_behind + 0.5 * (d - b) * slope_ahead
+    }
+
+    /// Samples from a number on.
+    fn four(&self, first: i64) -> [f64; 4] {
+        // Mostly they stand side by side.
+        let near = usize::try_from(first).ok();
+        let near = near.and_then(|number| number.checked_sub(self.dropped));
+        let (samples, _) = self.samples.as_slices();
+        match near.and_then(|place| samples.get(place..)?.first_chunk()) {
+            Some(four) => *four,
+            None => [0, 1, 2, 3].map(|k| self.sample(first + k)),
+        }
     }
 
     fn sample(&self, number: i64) -> f64 {
@@ -100,11 +112,13 @@ struct Place {
 impl Place {
     /// At a time over the time between two samples.
     fn new(place: f64) -> Self {
-        let before = place.floor();
-        let x = place - before;
+        // Rounded down without a call.
+        let towards_zero = place as i64;
+        let before = towards_zero - i64::from(towards_zero as f64 > place);
+        let x = place - before as f64;
         let (square, cube) = (x * x, x * x * x);
         Self {
-            before: before as i64,
+            before,
             weights: [
                 2.0 * cube - 3.0 * square + 1.0,
                 3.0 * square - 2.0 * cube,

@@ -232,27 +232,44 @@ impl NullaryFnOnce for Kick<'_> {
         let (mouth, last) = (nodes.get(0), nodes.last());
         nodes.kick(kick);
         nodes.set(0, mouth);
-        let Some(mut last) = last else {
-            return;
-        };
-        let [impedance, stiffness] = far_field.beyond;
-        let end = OpenEnd {
-            impedance,
-            spring: stiffness * last.position,
-        };
-        let [after, mean, force] = end.kick(last.mass(), last.velocity, last.whole_force(), kick);
-        last.velocity = after;
-        nodes.set_last(last);
-        far_field.passing_force = force;
-        far_field.passed_impulse += force * kick;
-        far_field.passed_work += force * mean * kick;
+        if let Some(last) = last {
+            kick_end(far_field, last, kick);
+        }
     }
 }
 
+/// Collects the forces of the springs on the nodes and gives new velocities as [`Kick`] does, where nothing damps.
+#[inline(always)]
+pub(super) fn push(far_field: &mut FarField, kick: f64) {
+    let FarField { nodes, springs, .. } = far_field;
+    let before = nodes.last();
+    nodes.push(springs.each().map(|springs| springs.force[1]), kick, 0);
+    if let (Some(before), Some(mut last)) = (before, nodes.last()) {
+        last.return_to(before);
+        kick_end(far_field, last, kick);
+    }
+}
+
+/// New velocity of the last node, which has not been kicked.
+#[inline(always)]
+fn kick_end(far_field: &mut FarField, mut last: Node, kick: f64) {
+    let [impedance, stiffness] = far_field.beyond;
+    let end = OpenEnd {
+        impedance,
+        spring: stiffness * last.position,
+    };
+    let [after, mean, force] = end.kick(last.mass(), last.velocity, last.whole_force(), kick);
+    last.velocity = after;
+    far_field.nodes.set_last(last);
+    far_field.passing_force = force;
+    far_field.passed_impulse += force * kick;
+    far_field.passed_work += force * mean * kick;
+}
+
 /// Moves the nodes on, to new forces of the springs.
-struct Drift<'a> {
-    far_field: &'a mut FarField,
-    time_step: f64,
+pub(super) struct Drift<'a> {
+    pub(super) far_field: &'a mut FarField,
+    pub(super) time_step: f64,
 }
 
 impl NullaryFnOnce for Drift<'_> {

@@ -24,6 +24,7 @@ mod slice;
 mod state;
 #[cfg(test)]
 mod tests;
+mod together;
 
 use self::{
     crater_floor::{Contact, CraterFloor, TargetResistance},

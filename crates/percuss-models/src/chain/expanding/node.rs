@@ -50,6 +50,12 @@ impl Node {
         self.velocity = velocity;
     }
 
+    /// Takes the velocities that it had, but keeps its force.
+    #[inline(always)]
+    pub(super) fn return_to(&mut self, before: Self) {
+        (self.velocity, self.velocity_before) = (before.velocity, before.velocity_before);
+    }
+
     pub(super) fn mass(&self) -> f64 {
         self.mass
     }
@@ -139,6 +145,31 @@ impl Nodes {
         dashpot.damp(control, &mut behind, &mut ahead);
         self.set(i, behind);
         self.set(i + 1, ahead);
+    }
+
+    /// Takes the forces of what is ahead of each node [N] and gives new velocities to all nodes but one at an end, as [`Self::collect`] and
+    /// [`Self::kick`] do.
+    #[inline(always)]
+    pub(super) fn push(&mut self, forces: impl Iterator<Item = Lanes>, kick: f64, stays: usize) {
+        if self.is_empty() {
+            return;
+        }
+        let before = self.get(stays);
+        let forces = forces.chain(std::iter::repeat(Lanes::all(0.0)));
+        let mut last = 0.0;
+        for (nodes, ahead) in self.each_mut().zip(forces) {
+            let behind = behind(&ahead, last);
+            let force = lanes(|l| behind[l] - ahead[l]);
+            let (velocity, mobility) = (nodes.velocity, nodes.mobility);
+            nodes.force = force;
+            nodes.velocity_before = velocity;
+            // Damping is 0, as everywhere.
+            nodes.velocity = lanes(|l| velocity[l] + (force[l] + 0.0) * kick * mobility[l]);
+            last = ahead[LANES - 1];
+        }
+        let mut node = self.get(stays);
+        node.return_to(before);
+        self.set(stays, node);
     }
 
     /// New velocities of all nodes.

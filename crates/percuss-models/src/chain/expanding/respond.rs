@@ -5,11 +5,11 @@
 
 use super::{
     block::{Ends, Inverse, add},
-    blocks::{Blocks, ahead, first_lanes, flags, sum},
+    blocks::{Blocks, ahead, first_lanes, flags},
     slice::{Metal, Neighbours, Shear, Slice, Undeformed, axial_stress},
 };
 use crate::{
-    lanes::{LANES, Lanes, PerLane, lanes, settled, smaller},
+    lanes::{LANES, Lanes, PerLane, any, lanes, settled, smaller},
     material::{LaneStrength, LaneTrial, LawVisitor, plastic_increments},
     power::log_ratio,
 };
@@ -73,7 +73,7 @@ impl Step<'_> {
         }
         let elastic_to = slices.yield_point.elastic_to();
         let beyond = flags(|l| (present[l] > 0.0) & (trial[l].abs() > elastic_to[l]));
-        (stage.trial, stage.beyond, stage.flows) = (trial, beyond, sum(&beyond) > 0.0);
+        (stage.trial, stage.beyond, stage.flows) = (trial, beyond, any(&beyond));
         slices.strain = axial;
         slices.pressure = [slices.pressure[1], pressure];
     }
@@ -100,11 +100,7 @@ impl Step<'_> {
             temperature: slices.plastic.temperature,
             pressure: slices.pressure[1],
         };
-        let mut places = 0;
-        for l in 0..LANES {
-            places |= u8::from(beyond[l] > 0.0) << l;
-        }
-        stage.increment = plastic_increments(law, &mut slices.yield_point, &trial, places);
+        stage.increment = plastic_increments(law, &mut slices.yield_point, &trial, &beyond);
     }
 
     /// The same by a law of the caller's own, one by one.

@@ -34,7 +34,7 @@ pub(super) struct Rod {
     pub(super) shears: Blocks<Shear<Lanes>>,
     /// Between the stages of a step only.
     pub(super) stages: Vec<Stage>,
-    arch: Arch,
+    pub(super) arch: Arch,
     /// What limits the next step, where it is known from the last one.
     pub(super) fastest: Option<Fastest>,
     /// What eroded: largest plastic strain, plastic strain rate and temperature of its slices.

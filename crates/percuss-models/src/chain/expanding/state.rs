@@ -7,6 +7,7 @@ use super::{
     far_field::FarField,
     projectile::Projectile,
     rear_face::RearFace,
+    together::{Drift, Push},
 };
 use crate::{
     Error,
@@ -104,16 +105,23 @@ impl State {
         let allowed = (control.courant * stable).min(control.longest_step);
         let step = StepTimes::choose(self.time_step, allowed);
         let (kick, time_step) = (step.kick, step.length);
-        self.rod.collect();
-        self.far_field.collect();
-        self.limit_approach(0.0, -step.before);
-        if control.is_damped() {
-            let force = self.contact_force;
-            self.rod.damp(control, -force);
-            self.far_field.damp(control, force);
+        let is_plain = !control.is_damped() && !control.fails;
+        if is_plain {
+            // The tip and the mouth are not kicked here.
+            self.push(kick);
+            self.limit_approach(0.0, -step.before);
+        } else {
+            self.rod.collect();
+            self.far_field.collect();
+            self.limit_approach(0.0, -step.before);
+            if control.is_damped() {
+                let force = self.contact_force;
+                self.rod.damp(control, -force);
+                self.far_field.damp(control, force);
+            }
+            self.rod.kick(kick);
+            self.far_field.kick(kick);
         }
-        self.rod.kick(kick);
-        self.far_field.kick(kick);
         let gain = self
             .rear_face
             .as_mut()
@@ -124,13 +132,17 @@ impl State {
             let forced = self.rod.forced_change(kick) + self.far_field.forced_change();
             self.accumulated.step_changes += 0.25 * change * forced;
         }
-        if control.is_damped() || control.fails {
+        if !is_plain {
             self.account_for_damping(kick);
             self.rod.close_interfaces(kick, time_step);
         }
         self.close(time_step);
-        let drifted = self.rod.drift(time_step);
-        self.far_field.drift(time_step);
+        let drifted = if is_plain {
+            self.drift(time_step)
+        } else {
+            self.far_field.drift(time_step);
+            self.rod.drift(time_step)
+        };
         self.floor.depth += self.floor.speed * time_step;
         self.time += time_step;
         self.time_step = time_step;
@@ -157,6 +169,28 @@ impl State {
             self.watch_target(time_step);
         }
         Ok(())
+    }
+
+    /// Collects forces and gives new velocities to all but the tip and the mouth.
+    fn push(&mut self, kick: f64) {
+        let (rod, far_field) = (&mut self.rod.front, &mut self.far_field);
+        let arch = rod.arch;
+        arch.dispatch(Push {
+            rod,
+            far_field,
+            kick,
+        });
+    }
+
+    /// Moves the projectile, of one rod, and the far field on.
+    fn drift(&mut self, time_step: f64) -> Result<f64, usize> {
+        let (rod, far_field) = (&mut self.rod.front, &mut self.far_field);
+        let arch = rod.arch;
+        arch.dispatch(Drift {
+            rod,
+            far_field,
+            time_step,
+        })
     }
 
     fn watch_target(&mut self, time_step: f64) {
