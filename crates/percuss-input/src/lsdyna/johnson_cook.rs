@@ -233,6 +233,7 @@ impl Card<'_, '_> {
             validity: Validity::default(),
             equation_of_state: None,
             damage: None,
+            fracture: None,
             strength: Strength::JohnsonCook(law),
         }
     }

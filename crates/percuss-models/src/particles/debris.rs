@@ -99,6 +99,18 @@ impl Debris {
         self.searched.is_empty()
     }
 
+    /// Contact of pieces after a step: once a bond is broken, its ends and the faces of the body are watched. A search is due now and then.
+    pub(super) fn meet(&mut self, body: &Body, law: &ContactLaw, time_step: f64, is_due: bool) {
+        if body.softening.is_none() {
+            return;
+        }
+        let is_broken = !self.is_empty() || body.broken_bonds() > 0;
+        if (is_due && is_broken) || self.has_moved(body) {
+            self.search(body, law);
+        }
+        self.update(body, law, time_step);
+    }
+
     /// Whether a particle has gone so far since the last search that a pair may be missing.
     pub(super) fn has_moved(&self, body: &Body) -> bool {
         let far = 0.5 * WATCHED * body.lattice.spacing;

@@ -103,20 +103,6 @@ impl PlaneImpact<'_> {
         self.loads.sort_by_key(|load| (load.row, load.place));
     }
 
-    /// Contact of pieces after a step: once a bond is broken, its ends and the faces of the body are watched.
-    fn meet_pieces(&mut self) {
-        let (body, debris) = (&self.body, &mut self.debris);
-        if body.softening.is_none() {
-            return;
-        }
-        let is_due = self.state.step.is_multiple_of(INTERVAL)
-            && (!debris.is_empty() || body.broken_bonds() > 0);
-        if is_due || debris.has_moved(body) {
-            debris.search(body, &self.law);
-        }
-        debris.update(body, &self.law, self.time_step);
-    }
-
     /// Largest stretch of a bond and largest tension of a particle, now or before.
     fn survey(&mut self) {
         let body = &self.body;
@@ -216,7 +202,9 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         }
         self.state.step += 1;
         self.state.time += step;
-        self.meet_pieces();
+        let is_due = self.state.step.is_multiple_of(INTERVAL);
+        self.debris
+            .meet(&self.body, &self.law, self.time_step, is_due);
         self.find_contact();
         if !self.contact.loads.is_empty() {
             self.state.last_contact = self.state.time;
