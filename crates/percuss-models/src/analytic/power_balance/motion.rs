@@ -100,6 +100,11 @@ const EDGES: (f64, f64) = (0.02, 50.0);
 /// Part by which the logarithm of that number may change in a step.
 const EDGE_CHANGE: f64 = 0.3;
 
+/// Bracket of the ballistic limit, over the limit.
+const LIMIT_TOLERANCE: f64 = 1e-6;
+/// Part of the bracket by which a speed lies beside the root of the line.
+const ASIDE: f64 = 0.02;
+
 impl Impact {
     pub fn radius(&self) -> f64 {
         self.diameter / 2.0
@@ -347,20 +352,42 @@ impl Impact {
         }
     }
 
-    /// Ballistic limit [m/s]: the lowest speed that perforates, to a part in 1e7, by bisection from a speed of this order.
+    /// Ballistic limit [m/s]: the lowest speed that perforates, to a part in 1e6, from a speed of this order.
+    ///
+    /// The square of the exit speed is nearly a line over that of the impact velocity: speeds on both sides of its root narrow the bracket,
+    /// or its middle where the root is outside.
     pub fn ballistic_limit(&self, order: f64) -> f64 {
-        let leaves = |speed: f64| self.case(speed, false).perforated;
+        let exit = |speed: f64| {
+            let run = self.case(speed, false);
+            run.perforated.then(|| run.last.velocities[0].powi(2))
+        };
         let (mut low, mut high) = (0.0, order);
-        while !leaves(high) && high < 1e6 {
+        let mut square = exit(high);
+        while square.is_none() && high < 1e6 {
             low = high;
             high *= 2.0;
+            square = exit(high);
         }
-        while high - low > 1e-7 * high {
-            let middle = (low + high) / 2.0;
-            if leaves(middle) {
-                high = middle;
-            } else {
-                low = middle;
+        let mut square = square.unwrap_or(0.0);
+        let mut before = None;
+        while high - low > LIMIT_TOLERANCE * high {
+            let aside = ASIDE * (high - low);
+            let root = before.and_then(|(speed, other): (f64, f64)| {
+                let slope = (other - square) / (speed * speed - high * high);
+                let root = (high * high - square / slope).sqrt();
+                (root > low + aside && root < high - aside).then_some(root)
+            });
+            let speed = match root {
+                Some(root) if root - low > high - root => root - aside,
+                Some(root) => root + aside,
+                None => 0.5 * (low + high),
+            };
+            match exit(speed) {
+                Some(leaving) => {
+                    before = Some((high, square));
+                    (high, square) = (speed, leaving);
+                }
+                None => low = speed,
             }
         }
         high
