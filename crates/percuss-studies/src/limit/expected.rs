@@ -103,15 +103,17 @@ struct LimitError {
     error: f64,
 }
 
+/// A model with its errors, once they are asked for.
+type ErrorsOf = (&'static dyn Model, OnceLock<Vec<LimitError>>);
+
 /// The fast models that predict limits, each with its errors on every published limit that counts, once they are asked for.
-static ERRORS: LazyLock<Vec<(&'static dyn Model, OnceLock<Vec<LimitError>>)>> =
-    LazyLock::new(|| {
-        let models = fast_models().into_iter().filter(|model| {
-            let predicts = model.validity().predicts;
-            predicts.contains(&BandQuantity::BallisticLimit)
-        });
-        models.map(|model| (model, OnceLock::new())).collect()
+static ERRORS: LazyLock<Vec<ErrorsOf>> = LazyLock::new(|| {
+    let models = fast_models().into_iter().filter(|model| {
+        let predicts = model.validity().predicts;
+        predicts.contains(&BandQuantity::BallisticLimit)
     });
+    models.map(|model| (model, OnceLock::new())).collect()
+});
 
 /// Errors of a fast model on every published limit that counts; none of another model.
 fn errors_of(model: &str) -> &'static [LimitError] {
