@@ -14,7 +14,7 @@ use std::{
 
 use crate::error::Error;
 
-/// Largest table of tests or reference results that is read: 64 MiB.
+/// Largest table of tests or reference results, and largest deck of another program, that is read: 64 MiB.
 pub const MAX_TABLE_BYTES: u64 = 1 << 26;
 /// Largest file of the program's own, such as a checkpoint, that is read: 16 GiB.
 pub const MAX_OWN_BYTES: u64 = 1 << 34;

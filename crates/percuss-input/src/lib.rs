@@ -8,6 +8,7 @@ pub mod lsdyna;
 
 // What the input uses of the layers below.
 use percuss_core::{
-    Refusal, check, document, error, history, material, options, problem, scenario, units,
+    Refusal, check, document, error, history, input_file, material, options, problem, scenario,
+    units,
 };
 use percuss_models::chain;

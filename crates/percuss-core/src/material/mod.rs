@@ -133,6 +133,44 @@ fn room_temperature() -> Temperature {
 }
 
 impl Material {
+    /// A record of a density [kg/m3], Young's modulus [Pa], Poisson's ratio and strength law; it says nothing else.
+    pub fn new(
+        name: impl Into<String>,
+        density: Density,
+        youngs_modulus: Pressure,
+        poissons_ratio: f64,
+        strength: Strength,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            family: None,
+            group: None,
+            aliases: Vec::new(),
+            state: None,
+            recommended: false,
+            trust: Trust::default(),
+            sources: Vec::new(),
+            note: String::new(),
+            calibrated: None,
+            density,
+            youngs_modulus,
+            poissons_ratio,
+            yield_stress: None,
+            ultimate_strength: None,
+            brinell_hardness: None,
+            spall_strength: None,
+            tuler_butcher: None,
+            specific_heat: None,
+            melting_temperature: None,
+            room_temperature: room_temperature(),
+            validity: Validity::default(),
+            equation_of_state: None,
+            damage: None,
+            fracture: None,
+            strength,
+        }
+    }
+
     /// What the material is, as far as models tell the difference.
     pub fn class(&self) -> MaterialClass {
         match self.strength {

@@ -6,13 +6,15 @@ use super::{
 };
 use crate::{
     error::Error,
-    material::{Damage, JohnsonCook, Material, RateForm, Strength, Trust, Validity},
+    material::{Damage, JohnsonCook, Material, RateForm, Strength, Trust},
     units::{Density, Pressure, SpecificHeat, StrainRate, Temperature},
 };
 
 /// From here on a melting temperature, a stress or a strain stands for none [K, any unit, 1].
 const NO_MELTING: f64 = 1e5;
 const NO_LIMIT: f64 = 1e16;
+/// Default of the least failure strain, which is as good as none.
+const LEAST_FAILURE: f64 = 1e-6;
 /// Difference of two shear moduli that is worth a word.
 const MODULI: f64 = 0.01;
 
@@ -37,7 +39,7 @@ impl Card<'_, '_> {
         let [mid, density, shear, young, poisson, _, _, form] = self.card(0)?;
         let [a, b, n, c, m, melting, room, rate] = self.card(1)?;
         let [heat, cutoff, _, _, d1, d2, d3, d4] = self.card(2)?;
-        let [d5, ..] = self.card::<8>(3)?;
+        let [d5, _, _, least_failure, ..] = self.card::<8>(3)?;
         if form.value.is_some_and(|form| form != 0.0) {
             let message = format!("the rate form RATEOP = {} is not read", written(&form));
             let help = "0 is: 1 + C ln ε̇*, the only form that both programs have";
@@ -60,6 +62,10 @@ impl Card<'_, '_> {
         material.specific_heat =
             heat.map(|heat| SpecificHeat::new(rounded(heat * self.units.specific_heat())));
         material.damage = self.damage([d1, d2, d3, d4, d5], rate);
+        if material.damage.is_some() && least_failure.value.is_some_and(|e| e > LEAST_FAILURE) {
+            let words = format!("EFMIN = {} is left out", written(&least_failure));
+            self.warn(&words);
+        }
         if cutoff.value.is_some_and(|cutoff| cutoff != 0.0) {
             self.warn("PC is left out: give `spall_strength` where the metal spalls");
         }
@@ -206,35 +212,18 @@ impl Card<'_, '_> {
         let (kind, title) = self.keyword.name_and_title();
         let name = title.filter(|title| !title.is_empty()).unwrap_or(kind);
         Material {
-            name: name.to_owned(),
-            family: None,
-            group: None,
-            aliases: Vec::new(),
-            state: None,
-            recommended: false,
             trust: Trust::C,
-            sources: Vec::new(),
             note: format!(
                 "Read from *{kind} of a deck in {}; its source is not known.",
                 self.units.name
             ),
-            calibrated: None,
-            density: Density::new(rounded(density * self.units.density())),
-            youngs_modulus: Pressure::new(rounded(young * self.units.pressure())),
-            poissons_ratio: rounded(poisson),
-            yield_stress: None,
-            ultimate_strength: None,
-            brinell_hardness: None,
-            spall_strength: None,
-            tuler_butcher: None,
-            specific_heat: None,
-            melting_temperature: None,
-            room_temperature: Temperature::new(293.0),
-            validity: Validity::default(),
-            equation_of_state: None,
-            damage: None,
-            fracture: None,
-            strength: Strength::JohnsonCook(law),
+            ..Material::new(
+                name,
+                Density::new(rounded(density * self.units.density())),
+                Pressure::new(rounded(young * self.units.pressure())),
+                rounded(poisson),
+                Strength::JohnsonCook(law),
+            )
         }
     }
 }

@@ -27,7 +27,13 @@ mod tests;
 mod units;
 mod write;
 
-use crate::{error::Error, material::MaterialTable};
+use std::path::Path;
+
+use crate::{
+    error::Error,
+    input_file::{self, MAX_TABLE_BYTES},
+    material::MaterialTable,
+};
 
 pub use units::UnitSystem;
 pub use write::write;
@@ -39,6 +45,16 @@ pub struct Imported {
     pub records: MaterialTable,
     /// What the records leave out, a line each.
     pub warnings: Vec<String>,
+}
+
+/// Reads the materials of a file.
+///
+/// # Errors
+/// [`Error::Read`] when it cannot be read, also where it has more than [`MAX_TABLE_BYTES`]; those of [`read`].
+pub fn read_file(path: &Path, units: UnitSystem) -> Result<Imported, Error> {
+    let text = input_file::text(path, MAX_TABLE_BYTES);
+    let text = text.map_err(|error| input_file::unreadable(path, error))?;
+    read(&path.display().to_string(), &text, units)
 }
 
 /// Reads the materials of a deck; `file` stands for it in messages.

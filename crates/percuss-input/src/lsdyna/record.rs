@@ -57,13 +57,30 @@ pub(super) fn read(deck: &Deck<'_>, units: UnitSystem) -> Result<Imported, Error
         let help = "*MAT_JOHNSON_COOK and *MAT_SIMPLIFIED_JOHNSON_COOK are read".to_owned();
         return Err(deck.error(&(0..0), message, help));
     }
+    let mut joined = vec![false; equations.len()];
     for (keyword, Found { number, material }) in found {
+        let all = equations_of(number, &equations, &pairs);
+        if all.len() > 1 {
+            imported.warnings.push(format!(
+                "line {}: parts join the material {number} with {} equations of state, and the first is taken",
+                deck.line(&keyword.span),
+                all.len()
+            ));
+        }
+        let first = all.first().copied();
+        all.into_iter().for_each(|index| joined[index] = true);
         let material = Material {
-            equation_of_state: equation_of(number, &equations, &pairs),
+            equation_of_state: first.map(|index| equations[index].equation.clone()),
             ..material
         };
         check(deck, keyword, units, &material)?;
         insert(&mut imported.records, number, material);
+    }
+    for (card, _) in equations.iter().zip(joined).filter(|(_, joined)| !joined) {
+        imported.warnings.push(format!(
+            "line {}: the equation of state {} is left out: no material that was read has it",
+            card.line, card.number
+        ));
     }
     Ok(imported)
 }
@@ -80,20 +97,16 @@ fn parts(deck: &Deck<'_>, keyword: &Keyword<'_>) -> Result<Vec<Pair>, Error> {
     Ok(pairs)
 }
 
-/// The equation of state that a part joins with a material; without parts, that of the same number.
-fn equation_of(
-    material: f64,
-    equations: &[GruneisenCard],
-    pairs: &[Pair],
-) -> Option<crate::material::EquationOfState> {
-    let part = pairs.iter().find(|(of, _)| *of == material);
-    let number = match (part, pairs.is_empty()) {
-        (Some((_, equation)), _) => *equation,
-        (None, true) => material,
-        (None, false) => return None,
+/// Places of the equations of state that parts join with a material; without parts, of that of the same number.
+fn equations_of(material: f64, equations: &[GruneisenCard], pairs: &[Pair]) -> Vec<usize> {
+    let is_joined = |equation: f64| match pairs.is_empty() {
+        true => equation == material,
+        false => pairs.contains(&(material, equation)),
     };
-    let mut same = equations.iter().filter(|card| card.number == number);
-    same.next().map(|card| card.equation.clone())
+    let all = equations.iter().enumerate();
+    all.filter(|(_, card)| is_joined(card.number))
+        .map(|(index, _)| index)
+        .collect()
 }
 
 /// Fails where no material has the values.

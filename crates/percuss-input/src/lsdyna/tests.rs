@@ -89,10 +89,11 @@ fn what_is_left_out_is_said() {
         "line 19, *MAT_098: PSFAIL = 2.15 is left out",
         "SIGMAX = 1.8 is left out",
         "line 27: *MAT_RIGID is not read",
+        "line 25: the equation of state 11 is left out: no material that was read has it",
     ] {
         assert!(all.contains(words), "`{words}` is not in\n{all}");
     }
-    assert_eq!(found.warnings.len(), 5, "{all}");
+    assert_eq!(found.warnings.len(), 6, "{all}");
 }
 
 #[test]
@@ -133,6 +134,41 @@ fn moduli_are_those_of_solids() {
     assert_eq!(young, 208e9);
     assert!(warnings[0].contains("E = 200 is not 2 G (1 + PR) = 208.00000"));
     assert!(refused(&deck("80")).0.contains("two of G, E and PR"));
+}
+
+/// Nothing of an equation of state or of damage is left out without a word.
+#[test]
+fn every_number_without_a_place_has_a_warning() {
+    let steel = "*MAT_015\n1,7.83e-6,80,208,0.3\n0.8,0.5,0.3,0.01,1,1800,300,0.001\n0,0,0,0,0.1,0.9,-1.5,0\n";
+    let of = |rest: &str| {
+        let found = read("d.k", &format!("{steel}{rest}"), units("mm-kg-ms")).unwrap();
+        let has = found.records["mat-015"].equation_of_state.is_some();
+        (has, found.warnings.join("\n"))
+    };
+    let (has, quiet) = of("0,0,0,1e-6\n*EOS_004\n1,3574,1.92,0,0,1.69,0,0\n1\n");
+    assert!(has && quiet.matches("line").count() == 1, "{quiet}");
+    for (rest, words) in [
+        ("0,0,0,0.01\n", "EFMIN = 0.01 is left out"),
+        (
+            "0\n*EOS_004\n1,3574,1.92,0.1,0,1.69,0.46,0\n",
+            "S2, A left out",
+        ),
+        (
+            "0\n*EOS_004\n1,3574,1.92,0,0,1.69,0,2.5\n0.98\n",
+            "E0, V0 left out",
+        ),
+        (
+            "0\n*EOS_004\n2,3574,1.92,0,0,1.69\n",
+            "equation of state 2 is left out",
+        ),
+        (
+            "0\n*EOS_004\n2,3574,1.92,0,0,1.69\n*EOS_004\n3,3600,1.92,0,0,1.69\n*PART\na\n1,1,1,2\nb\n2,1,1,3\n",
+            "material 1 with 2 equations of state",
+        ),
+    ] {
+        let (_, warnings) = of(rest);
+        assert!(warnings.contains(words), "`{words}` is not in\n{warnings}");
+    }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::units::UnitSystem;
+use super::{johnson_cook::rounded, units::UnitSystem};
 use crate::{
     Refusal,
     material::{JohnsonCook, Material, RateForm, Strength},
@@ -132,6 +132,7 @@ fn card(text: &mut String, names: &[&str], values: &[f64]) {
 
 /// A number in a field, with as many digits as there is room for.
 fn field(value: f64) -> String {
+    let value = rounded(value);
     let room = WIDTH - 1;
     let fits = |text: &String| text.len() <= room;
     let plain = value.to_string();

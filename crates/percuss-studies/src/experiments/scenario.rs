@@ -154,32 +154,18 @@ impl Properties {
             }
         };
         Material {
-            name: name.to_owned(),
-            family: None,
-            group: None,
-            aliases: Vec::new(),
-            state: None,
-            recommended: false,
             trust: test.trust,
             sources: vec![test.source.clone()],
-            note: String::new(),
-            density: Density::new(self.density),
-            youngs_modulus: Pressure::new(self.youngs_modulus),
-            poissons_ratio: self.poissons_ratio,
             yield_stress,
             ultimate_strength: self.ultimate_strength.map(Pressure::new),
             brinell_hardness: self.brinell_hardness,
-            spall_strength: None,
-            tuler_butcher: None,
-            specific_heat: None,
-            melting_temperature: None,
-            room_temperature: Temperature::new(293.0),
-            validity: material::Validity::default(),
-            equation_of_state: None,
-            damage: None,
-            fracture: None,
-            calibrated: None,
-            strength,
+            ..Material::new(
+                name,
+                Density::new(self.density),
+                Pressure::new(self.youngs_modulus),
+                self.poissons_ratio,
+                strength,
+            )
         }
     }
 }
