@@ -157,9 +157,13 @@ impl Failure {
                     .as_ref()
                     .is_some_and(|error| error.kind() == io::ErrorKind::NotFound);
                 let (what, remedy) = error.message_and_help();
+                let ending = path.extension().and_then(|ending| ending.to_str());
                 let help = match remedy.as_str() {
-                    "" if missing && path.extension().is_some_and(|end| end == "csv") => {
+                    "" if missing && ending == Some("csv") => {
                         "give the path of a CSV file that exists"
+                    }
+                    "" if missing && ending.is_some_and(|ending| ending != "toml") => {
+                        "give the path of a file that exists"
                     }
                     "" if missing => "`percuss new NAME` writes a starter case",
                     remedy => remedy,

@@ -267,6 +267,26 @@ fn a_deck_is_written_and_read_and_run() {
     let (own, library) = (depth("own.toml"), depth("library.toml"));
     assert!((own / library - 1.0).abs() < 1e-2, "{own} {library}");
 
+    let gone = percuss(
+        here,
+        ["materials", "import", "gone.k", "--units", "mm-kg-ms"],
+    );
+    assert_eq!(gone.code, 4);
+    assert!(
+        gone.stderr.contains("give the path of a file that exists"),
+        "{}",
+        gone.stderr
+    );
+    let folder = percuss(
+        here,
+        ["materials", "export", "4340", "--out", "gone/steel.toml"],
+    );
+    assert_eq!(folder.code, 4);
+    assert!(
+        folder.stderr.contains("make its folder first"),
+        "{}",
+        folder.stderr
+    );
     let wrong = percuss(
         here,
         ["materials", "import", "metals.k", "--units", "mm-t-s"],
@@ -292,7 +312,14 @@ fn exported_records_are_read_and_refusals_have_reasons() {
             "`power_law` is no Johnson–Cook law",
         ),
         (vec!["rha", "--units", "m-kg-s"], "`--units` has no effect"),
-        (vec!["rha", "--format", "ls-dyna"], "--units <SYSTEM>"),
+        (
+            vec!["rha", "--format", "ls-dyna"],
+            "`--format ls-dyna` needs `--units`",
+        ),
+        (
+            vec!["rha", "--format", "ls-dyna", "--units", "mm-kg-s"],
+            "mm-kg-ms",
+        ),
         (vec!["no-such-metal"], "no-such-metal"),
     ] {
         let arguments = [vec!["materials", "export"], arguments].concat();

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum, builder::PossibleValuesParser};
+use clap::{Args, ValueEnum};
 use percuss::{
     case::materials_toml,
     lsdyna::{self, UnitSystem},
@@ -10,7 +10,7 @@ use percuss::{
 };
 use serde::Serialize;
 
-use super::{show, write_file};
+use super::{show, unit_system, write_file};
 use crate::{failure::Failure, file_list::FileList, output, response::Response};
 
 const LONG_ABOUT: &str = "\
@@ -40,9 +40,8 @@ pub struct Export {
     #[arg(long, value_enum, default_value_t = Format::Toml)]
     format: Format,
     /// Unit system of a deck: length, mass and time
-    #[arg(long, value_name = "SYSTEM", value_parser = PossibleValuesParser::new(UnitSystem::NAMES))]
-    #[arg(required_if_eq("format", "ls-dyna"))]
-    units: Option<String>,
+    #[arg(long, value_name = "SYSTEM", value_parser = unit_system())]
+    units: Option<UnitSystem>,
     /// Write the text to a file
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -82,7 +81,7 @@ impl Export {
     fn text(&self, library: &Library) -> Result<String, Failure> {
         let find = |name: &String| show::find(library, name);
         let entries: Vec<&MaterialEntry> = self.names.iter().map(find).collect::<Result<_, _>>()?;
-        match (self.format, self.units.as_deref()) {
+        match (self.format, self.units) {
             (Format::Toml, None) => {
                 let records = entries
                     .iter()
@@ -93,13 +92,12 @@ impl Export {
                 message: "`--units` has no effect with `--format toml`".to_owned(),
                 help: "every number of a TOML record carries its unit: remove `--units`".to_owned(),
             }),
-            (Format::LsDyna, name) => {
-                // clap asks for a name and lets no other through.
-                let units = name
-                    .and_then(UnitSystem::named)
-                    .unwrap_or(UnitSystem::ALL[0]);
-                deck(&entries, units)
-            }
+            (Format::LsDyna, Some(units)) => deck(&entries, units),
+            (Format::LsDyna, None) => Err(Failure::Usage {
+                message: "`--format ls-dyna` needs `--units`: a deck has no units of its own"
+                    .to_owned(),
+                help: format!("unit systems: {}", UnitSystem::NAMES.join(", ")),
+            }),
         }
     }
 }

@@ -2,15 +2,15 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, builder::PossibleValuesParser};
+use clap::Args;
 use percuss::{
-    case::{Document, materials_toml},
+    case::materials_toml,
     lsdyna::{self, Imported, UnitSystem},
     material::{Material, MaterialTable},
 };
 use serde::Serialize;
 
-use super::write_file;
+use super::{unit_system, write_file};
 use crate::{
     diagnostic, failure::Failure, file_list::FileList, output, response::Response, terminal,
 };
@@ -40,8 +40,8 @@ pub struct Import {
     #[arg(value_name = "DECK.k")]
     deck: PathBuf,
     /// Unit system of the deck: length, mass and time
-    #[arg(long, value_name = "SYSTEM", value_parser = PossibleValuesParser::new(UnitSystem::NAMES))]
-    units: String,
+    #[arg(long, value_name = "SYSTEM", value_parser = unit_system())]
+    units: UnitSystem,
     /// Write the records to a file
     #[arg(long, value_name = "FILE.toml")]
     out: Option<PathBuf>,
@@ -78,10 +78,7 @@ impl Import {
     }
 
     fn read(&self) -> Result<Imported, Failure> {
-        let document = Document::read(&self.deck)?;
-        // clap lets no other name through.
-        let units = UnitSystem::named(&self.units).unwrap_or(UnitSystem::ALL[0]);
-        Ok(lsdyna::read(&document.file, &document.text, units)?)
+        Ok(lsdyna::read_file(&self.deck, self.units)?)
     }
 
     fn write(&self, found: &Imported) -> Result<Vec<PathBuf>, Failure> {

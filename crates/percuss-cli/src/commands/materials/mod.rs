@@ -6,11 +6,15 @@ mod import;
 mod list;
 mod show;
 
-use std::{fs, path::PathBuf};
+use std::{fs, io, path::PathBuf};
 
-use clap::{Args, Subcommand, builder::PossibleValuesParser};
+use clap::{
+    Args, Subcommand,
+    builder::{PossibleValuesParser, TypedValueParser},
+};
 use percuss::{
     case,
+    lsdyna::UnitSystem,
     material::{Filter, Library, Material, MaterialEntry, MaterialGroup},
 };
 use serde::Serialize;
@@ -161,12 +165,26 @@ impl Materials {
     }
 }
 
+/// A unit system of a deck, by its name.
+fn unit_system() -> impl TypedValueParser<Value = UnitSystem> {
+    let names = PossibleValuesParser::new(UnitSystem::NAMES);
+    names.try_map(|name| UnitSystem::named(&name).ok_or("it is no unit system"))
+}
+
 /// Writes a text to a file, if there is one; returns it.
 fn write_file(out: Option<&PathBuf>, text: &str) -> Result<Vec<PathBuf>, Failure> {
     let Some(out) = out else {
         return Ok(Vec::new());
     };
-    fs::write(out, text).map_err(Failure::write(out))?;
+    fs::write(out, text).map_err(|error| Failure::Write {
+        path: out.clone(),
+        help: match error.kind() {
+            io::ErrorKind::NotFound => "make its folder first, or give another file".to_owned(),
+            io::ErrorKind::IsADirectory => "give the name of a file in it".to_owned(),
+            _ => String::new(),
+        },
+        reason: error.to_string(),
+    })?;
     Ok(vec![out.clone()])
 }
 
