@@ -104,8 +104,8 @@ impl Debris {
         if body.softening.is_none() {
             return;
         }
-        let is_broken = !self.is_empty() || body.broken_bonds() > 0;
-        if (is_due && is_broken) || self.has_moved(body) {
+        // Bonds are counted only where a search is due.
+        if (is_due && (!self.is_empty() || body.broken_bonds() > 0)) || self.has_moved(body) {
             self.search(body, law);
         }
         self.update(body, law, time_step);

@@ -178,7 +178,7 @@ fn describe(result: &mut RunResult, impact: &Impact, run: &Perforation) {
         detail("work of the local field", "J", last.local_work),
         detail("work of bending and stretching", "J", last.dish_work),
         detail("energy of displaced metal", "J", last.displaced),
-        detail("energy lost to capture", "J", last.capture),
+        detail("energy lost where bodies join", "J", last.capture),
     ]);
     let names = ["plate bulges from", "plug slips from", "band fails at"];
     for (name, time) in names.into_iter().zip(run.stages) {

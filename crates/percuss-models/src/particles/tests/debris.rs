@@ -1,6 +1,6 @@
 //! Contact of pieces: exact collisions of discs, books, and bodies that meet.
 
-use super::{solid, strip};
+use super::strip;
 use crate::{
     options::Space,
     particles::{
@@ -222,7 +222,7 @@ fn a_crowd_keeps_its_momenta_and_its_books() {
     let turn = (after[2] - before[2]) / size[2];
     assert!(turn.abs() < 1e-3, "{turn:e}");
     assert!(scene.debris.lost > 0.1 * start);
-    assert!(worst < 1e-3, "{worst:e}");
+    assert!(worst < 1e-4, "{worst:e}");
 }
 
 /// Two bars of one length: after a wave has gone along both and back, they part with exchanged velocities.
@@ -284,12 +284,4 @@ fn bars_part_after_a_round_trip_of_their_waves() {
         "{touching} {passage}"
     );
     assert!(worst < 1e-3, "{worst:e}");
-}
-
-#[test]
-fn the_law_takes_its_constants_from_the_lattice() {
-    let lattice = solid(0.22).lattice(SPACE, SPACING);
-    let law = ContactLaw::new(&lattice, 0.22, 0.9, 0.3);
-    assert_eq!(law, ContactLaw::new(&lattice, 0.22, 0.9, 0.3));
-    assert_ne!(law, ContactLaw::new(&lattice, 0.22, 0.5, 0.3));
 }
