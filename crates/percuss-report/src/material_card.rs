@@ -148,6 +148,16 @@ impl MaterialCard {
     fn paragraph(&mut self, text: &str) {
         self.add(CardLine::Paragraph(text.to_owned()));
     }
+
+    /// Limitations and sources of a part of a record, where it has them.
+    fn origin(&mut self, note: &str, sources: &[String]) {
+        if !note.is_empty() {
+            self.paragraph(note);
+        }
+        if !sources.is_empty() {
+            self.row("from", &sources.join(", "));
+        }
+    }
 }
 
 /// The family of a material; one without is a family of its own.
@@ -275,12 +285,7 @@ fn equation_of_state(material: &Material, card: &mut MaterialCard) {
     card.row("Γ₀", &eos.gruneisen.to_string());
     let bulk = material.density.si() * eos.sound_speed.si().powi(2) * 1e-9;
     card.row("ρ c₀²", &format!("{} GPa", significant(bulk, 4)));
-    if !eos.note.is_empty() {
-        card.paragraph(&eos.note);
-    }
-    if !eos.sources.is_empty() {
-        card.row("from", &eos.sources.join(", "));
-    }
+    card.origin(&eos.note, &eos.sources);
 }
 
 fn damage(material: &Material, card: &mut MaterialCard) {
@@ -294,12 +299,7 @@ fn damage(material: &Material, card: &mut MaterialCard) {
         card.row(name, &value.to_string());
     }
     card.row("ε̇₀ (reference_rate)", &damage.reference_rate.to_string());
-    if !damage.note.is_empty() {
-        card.paragraph(&damage.note);
-    }
-    if !damage.sources.is_empty() {
-        card.row("from", &damage.sources.join(", "));
-    }
+    card.origin(&damage.note, &damage.sources);
 }
 
 fn fracture(material: &Material, card: &mut MaterialCard) {
@@ -311,12 +311,7 @@ fn fracture(material: &Material, card: &mut MaterialCard) {
     card.row("tensile strength", &fracture.tensile_strength.to_string());
     let length = fracture.characteristic_length(material.youngs_modulus.si());
     card.row("E G/f²", &format!("{} mm", significant(length * 1e3, 3)));
-    if !fracture.note.is_empty() {
-        card.paragraph(&fracture.note);
-    }
-    if !fracture.sources.is_empty() {
-        card.row("from", &fracture.sources.join(", "));
-    }
+    card.origin(&fracture.note, &fracture.sources);
 }
 
 fn validity(material: &Material, card: &mut MaterialCard) {

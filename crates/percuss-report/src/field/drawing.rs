@@ -129,7 +129,7 @@ fn span(points: &Points) -> FieldSpan {
 
 fn label(quantity: FieldQuantity) -> String {
     let label = quantity.label();
-    let words = label.split(" [").next().unwrap_or(label);
+    let words = label.split(" (").next().unwrap_or(label);
     let mut letters = words.chars();
     match letters.next() {
         Some(first) => first.to_uppercase().chain(letters).collect(),
