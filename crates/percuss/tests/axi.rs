@@ -6,11 +6,16 @@ use percuss::{
     outcome::RunResult,
 };
 
-/// Runs a case by the axisymmetric model; holds it to its books.
-fn axi(text: &str) -> RunResult {
+/// Runs a case by the axisymmetric model.
+fn run(text: &str) -> RunResult {
     let model = model::model("axi").unwrap();
-    let result = model::run(model, &scenario(text), &mut Control::default())
-        .unwrap_or_else(|error| panic!("{error}\n{text}"));
+    model::run(model, &scenario(text), &mut Control::default())
+        .unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// Runs a case and holds it to its balances.
+fn axi(text: &str) -> RunResult {
+    let result = run(text);
     let numerics = result.numerics();
     println!(
         "residuals {:.1e} and {:.1e}, lost to the grid {:.1} %",
@@ -18,7 +23,7 @@ fn axi(text: &str) -> RunResult {
         numerics.momentum_residual,
         100.0 * numerics.energy.transfer / numerics.energy.initial
     );
-    assert!(numerics.energy_residual <= 5e-3 && numerics.momentum_residual <= 1e-12);
+    assert!(numerics.energy_residual <= 1e-3 && numerics.momentum_residual <= 1e-12);
     result
 }
 
@@ -75,17 +80,17 @@ fn a_run_whose_energy_balance_does_not_close_is_repeated_with_half_the_courant_n
     let text = |courant: &str| {
         format!(
             r#"
-            projectile = {{ material = "ofhc-copper", length = "2.5 mm", diameter = "5 mm", impact_velocity = "3300 m/s" }}
+            projectile = {{ material = "ofhc-copper", length = "2.5 mm", diameter = "5 mm", impact_velocity = "6000 m/s" }}
             target = {{ material = "tungsten-carbide", thickness = "semi-infinite" }}
-            axi = {{ cells_per_radius = 5{courant} }}
+            axi = {{ cells_per_radius = 2{courant} }}
             "#
         )
     };
-    let mut repeated = axi(&text(""));
+    let mut repeated = run(&text(""));
     let warning = repeated.warnings.pop().unwrap();
     assert!(
-        warning.contains("the Courant number was reduced from 0.5 to 0.25"),
+        warning.contains("the Courant number was reduced from 0.7 to 0.175"),
         "{warning}"
     );
-    assert_eq!(repeated, axi(&text(", courant = 0.25")));
+    assert_eq!(repeated, run(&text(", courant = 0.175")));
 }

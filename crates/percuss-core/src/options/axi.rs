@@ -119,7 +119,7 @@ defaults! { AxiOptions, axi_in_schema {
     /// Equation of state.
     equation_of_state: Eos = Eos::Linear;
     /// Courant number.
-    courant: f64 = 0.5;
+    courant: f64 = 0.7;
     /// Artificial viscosity.
     artificial_viscosity: ArtificialViscosity = ArtificialViscosity { linear: 0.06, quadratic: 1.2 };
     /// Whether strength laws see the strain rate.

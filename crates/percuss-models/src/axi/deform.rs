@@ -131,7 +131,7 @@ impl Law {
         // What the difference from the mean pressure gives up in its decay is heat.
         let viscous = lanes(|l| {
             let decay = mean_volume[l] * time_step * relaxation[l] * excess[l];
-            decay - viscous_pressure[l] * change[l]
+            decay - 0.5 * (viscous_before[l] + viscous_pressure[l]) * change[l]
         });
         let volume_work = self.compress(block, &change, &lanes(|l| shear_work[l] + viscous[l]));
         let (temperature, mass) = (block.temperature, block.mass);

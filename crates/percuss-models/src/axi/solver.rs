@@ -49,7 +49,9 @@ pub(super) struct Accumulators {
     pub(super) initial_energy: f64,
     pub(super) initial_momentum: f64,
     /// Work done in the projectile and in the target [J]: all, plastic, viscous, failure. Velocities stand half a step behind
-    /// positions, so half of the last step's work belongs to the time of the velocities.
+    /// positions, so half of the last step's work belongs to the time of the velocities: of all work the half that the stresses
+    /// before the step do, whose forces have changed the velocities already. In a linear system the sum of both energies is then
+    /// the same after every step.
     pub(super) work: [[f64; 4]; 2],
     /// The other half.
     pub(super) half_work: [[f64; 4]; 2],
@@ -151,15 +153,16 @@ impl Grid {
         }
         for (index, sums) in self.sums.iter().enumerate() {
             let role = index.min(1);
-            let work = [
-                sums.work.total,
-                sums.work.plastic,
-                sums.work.viscous,
-                sums.work.failure,
+            let work = &sums.work;
+            let halves = [
+                (work.total, 0.5 * self.time_step * work.power_at_start),
+                (work.plastic, 0.5 * work.plastic),
+                (work.viscous, 0.5 * work.viscous),
+                (work.failure, 0.5 * work.failure),
             ];
-            for (k, work) in work.into_iter().enumerate() {
-                accumulated.work[role][k] += 0.5 * work;
-                accumulated.half_work[role][k] += 0.5 * work;
+            for (k, (work, first)) in halves.into_iter().enumerate() {
+                accumulated.work[role][k] += first;
+                accumulated.half_work[role][k] += work - first;
             }
             accumulated.lost[role] += sums.lost.0;
             accumulated.lost_momentum += sums.lost.1;

@@ -9,7 +9,7 @@ pub const BUDGET: f64 = 60.0;
 /// Particles times steps per second of processor time: 7 to 14 million on one core of 2024.
 const RATE: f64 = 10e6;
 /// Steps of a run per cell along the radius: at least, and per diameter of the projectile's length.
-const STEPS: (f64, f64) = (30.0, 60.0);
+const STEPS: (f64, f64) = (21.0, 43.0);
 
 /// Estimated processor time of a run of `axi` on a mesh [s]: particles times steps over a rate. It grows with the third power of the
 /// number of cells.

@@ -117,7 +117,7 @@ fn a_spinning_block_keeps_its_momenta_and_its_shape() {
     // Centrifugal forces stretch the block by about ρv²/E, a few parts in ten thousand.
     assert!((0.0..5e-4).contains(&growth));
     assert!(kinetic.abs() < 1e-3);
-    assert!(residual.abs() < 1e-3);
+    assert!(residual.abs() < 1e-6);
 }
 
 #[test]

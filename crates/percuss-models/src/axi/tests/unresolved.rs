@@ -58,7 +58,7 @@ fn a_lone_drop_draws_no_energy_from_its_motion() {
             grid.energy().residual()
         );
         assert!(most < 1.0 + 1e-3, "{rate}: {most}");
-        assert!(grid.energy().residual().abs() < 5e-3);
+        assert!(grid.energy().residual().abs() < 1e-4);
     }
 }
 
