@@ -1,0 +1,312 @@
+//! Motion of rod and crater floor, with the account of every joule.
+
+use std::f64::consts::PI;
+
+use super::{
+    super::{
+        long_rod::failure,
+        ode::{FinalState, Problem},
+        rod_flow::RodFlow,
+    },
+    target::Target,
+};
+use crate::error::NumericalError;
+
+/// Error of a step as a part of the quantity.
+const TOLERANCE: f64 = 1e-12;
+/// Part of the impact velocity at which a speed counts as zero.
+const STOPPED: f64 = 1e-7;
+/// Part of the length at which a rod counts as used up.
+const USED_UP: f64 = 1e-7;
+
+/// A rod, a target and the speeds of plane waves in both.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Motion {
+    pub(super) rod: RodFlow,
+    pub(super) target: Target,
+    /// Part of the impact velocity at which the faces move right after a plane impact: `Z_p/(Z_p + Z_t)`.
+    pub(super) shock_share: f64,
+    /// Factor on the mass of target that moves with the floor: 1, or 0 in a limit.
+    pub(super) mass_factor: f64,
+}
+
+/// Where the kinetic energy of the rod has gone [J].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Shares {
+    /// Dissipated where rod and target first meet.
+    pub(super) shock: f64,
+    /// Plastic work in the rod.
+    pub(super) rod_plastic: f64,
+    /// Kinetic energy of metal of the rod that has left the floor.
+    pub(super) debris: f64,
+    /// Work of pressing the floor into the target.
+    pub(super) pressing: f64,
+    /// Kinetic energy of target left behind the floor, which widens the crater.
+    pub(super) flow: f64,
+}
+
+impl Shares {
+    /// Sum of all [J].
+    pub(super) fn total(&self) -> f64 {
+        self.shock + self.rod_plastic + self.debris + self.pressing + self.flow
+    }
+
+    /// Energy that the target has taken [J].
+    pub(super) fn target(&self) -> f64 {
+        self.pressing + self.flow
+    }
+}
+
+/// Where a rod ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stop {
+    pub(super) depth: f64,
+    /// Part of it after the rod has stopped to flow [m].
+    pub(super) after_erosion: f64,
+    /// Length that has not flowed [m].
+    pub(super) length: f64,
+    pub(super) time: f64,
+    pub(super) shares: Shares,
+    /// Area of the floor over the rod's right after impact.
+    pub(super) spread: f64,
+}
+
+/// Tail speed, floor speed, length, depth; plastic work in the rod, energy of debris, pressing, flow left behind.
+type State = [f64; 8];
+
+impl Motion {
+    /// Rates in a phase.
+    fn rates(&self, state: &State, zone: Zone, phase: Phase) -> State {
+        let &[tail, floor, length, depth, ..] = state;
+        let (rod, target) = (&self.rod, &self.target);
+        let arriving = match phase {
+            Phase::Flowing | Phase::Flattening => (tail - floor).max(0.0),
+            Phase::Rigid | Phase::After(_) => 0.0,
+        };
+        let turned = rod.turned(arriving);
+        let area = match phase {
+            Phase::After(area) => area,
+            _ => rod.area * turned.spread,
+        };
+        let resistance = target.resistance(depth, (area / PI).sqrt());
+        let inertia = 0.5 * target.density * floor * floor;
+        let against = area * (resistance + inertia);
+        let (mass, growth) = zone.mass(depth);
+        // What the growth of the mass takes: its kinetic energy is ½MU².
+        let forming = 0.5 * growth * floor * floor;
+        let (tail_rate, floor_rate) = match phase {
+            Phase::Flowing => (
+                -rod.strength / (rod.density * length),
+                (rod.force(arriving, turned) - against - forming) / mass,
+            ),
+            Phase::Flattening => (-rod.strength / (rod.density * length), 0.0),
+            Phase::Rigid => {
+                let rate = -(against + forming) / (mass + rod.density * rod.area * length);
+                (rate, rate)
+            }
+            Phase::After(_) => (0.0, -(against + forming) / mass),
+        };
+        let flux = rod.area * arriving;
+        let debris = floor - turned.leaving * arriving;
+        [
+            tail_rate,
+            floor_rate,
+            -arriving,
+            floor,
+            flux * rod.plastic_work(turned),
+            0.5 * rod.density * flux * debris * debris,
+            area * resistance * floor,
+            area * inertia * floor,
+        ]
+    }
+
+    fn solve(
+        &self,
+        start: State,
+        zone: Zone,
+        phase: Phase,
+        scale: (f64, f64),
+    ) -> Result<FinalState<8>, NumericalError> {
+        let (speed, length) = scale;
+        let energy = 0.5 * self.rod.density * self.rod.area * length * speed * speed;
+        let event = |&[tail, floor, left, ..]: &State| match phase {
+            Phase::Flowing => ((tail - floor) / speed - STOPPED)
+                .min(floor / speed - STOPPED)
+                .min(left / length - USED_UP),
+            Phase::Flattening => (tail / speed - STOPPED).min(left / length - USED_UP),
+            Phase::Rigid | Phase::After(_) => floor,
+        };
+        let [v, l, e] = [speed, length, energy].map(|scale| TOLERANCE * scale);
+        Problem {
+            rates: &|state| self.rates(state, zone, phase),
+            event: &event,
+            relative: TOLERANCE,
+            absolute: [v, v, USED_UP * l, l, e, e, e, e],
+            first_step: 1e-4 * length / speed,
+        }
+        .solve(start, |_, _| ())
+        .map_err(failure)
+    }
+
+    /// The first contact: a slice of the rod and the target's moving mass take the common speed of a plane impact, inelastically.
+    fn first_contact(&self, speed: f64, length: f64) -> Contact {
+        let rod = &self.rod;
+        let line = rod.density * rod.area;
+        let plane = speed * self.shock_share;
+        let rigid = self.target.deep() + 0.5 * self.target.density * speed * speed < rod.strength;
+        let spread = match rigid {
+            true => 1.0,
+            false => rod.turned(speed - plane).spread,
+        };
+        let least = f64::EPSILON.sqrt() * line * length;
+        let mass_of = |area: f64| {
+            let radius = (area / PI).sqrt();
+            (self.mass_factor * self.target.moving_mass(radius)).max(least)
+        };
+        let mass = mass_of(rod.area);
+        let zone = Zone {
+            first: mass,
+            full: mass_of(rod.area * spread),
+            radius: (rod.area * spread / PI).sqrt(),
+        };
+        let slice = mass * plane / (line * (speed - plane));
+        let whole = line * length * speed / (line * length + mass);
+        let (floor, slice) = match (rigid, slice < length) {
+            (true, _) => (whole, 0.0),
+            (false, true) => (plane, slice),
+            (false, false) => (whole, length),
+        };
+        // A rigid rod slows as a whole, a flowing one loses a slice, which stays at the speed of the floor.
+        let joined = if rigid { line * length } else { line * slice };
+        let debris = if rigid {
+            0.0
+        } else {
+            0.5 * joined * floor * floor
+        };
+        let kinetic = 0.5 * (joined + mass) * floor * floor;
+        let shares = Shares {
+            shock: 0.5 * joined * speed * speed - kinetic,
+            debris,
+            ..Shares::default()
+        };
+        Contact {
+            zone,
+            rigid,
+            floor,
+            length: length - slice,
+            spread,
+            shares,
+        }
+    }
+
+    /// Follows a rod of a length [m] from its impact at a speed [m/s] to rest.
+    ///
+    /// # Errors
+    /// When an integration finds no end.
+    pub(super) fn penetrate(&self, speed: f64, length: f64) -> Result<Stop, NumericalError> {
+        let contact = self.first_contact(speed, length);
+        let tail = if contact.rigid { contact.floor } else { speed };
+        let mut state = [tail, contact.floor, contact.length, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let mut time = 0.0;
+        let mut run = |state: &mut State, phase| -> Result<(), NumericalError> {
+            let end = self.solve(*state, contact.zone, phase, (speed, length))?;
+            *state = end.state;
+            time += end.time;
+            Ok(())
+        };
+        let mut area = self.rod.area * contact.spread;
+        if !contact.rigid && contact.length > USED_UP * length {
+            run(&mut state, Phase::Flowing)?;
+            area = self.rod.area * self.rod.turned((state[0] - state[1]).max(0.0)).spread;
+        }
+        let before = state[3];
+        let mut left;
+        if state[2] <= 2.0 * USED_UP * length {
+            // What is left of the rod goes with the debris.
+            left = self.kinetic(state[2], state[0]);
+            state[2] = 0.0;
+            run(&mut state, Phase::After(area))?;
+        } else if state[1] <= 2.0 * STOPPED * speed {
+            left = 0.5 * contact.zone.mass(state[3]).0 * state[1] * state[1];
+            state[1] = 0.0;
+            run(&mut state, Phase::Flattening)?;
+            left += self.kinetic(state[2], state[0]);
+        } else {
+            // Tail and floor meet: one speed for both, and the momentum of both.
+            let own = self.rod.density * self.rod.area * state[2];
+            let mass = contact.zone.mass(state[3]).0;
+            let common = (own * state[0] + mass * state[1]) / (own + mass);
+            let lost = self.kinetic(state[2], state[0]) + 0.5 * mass * state[1] * state[1]
+                - 0.5 * (own + mass) * common * common;
+            left = lost;
+            (state[0], state[1]) = (common, common);
+            run(&mut state, Phase::Rigid)?;
+        }
+        let first = contact.shares;
+        Ok(Stop {
+            depth: state[3],
+            after_erosion: state[3] - before,
+            length: state[2],
+            time,
+            shares: Shares {
+                shock: first.shock,
+                rod_plastic: state[4],
+                debris: first.debris + state[5] + left,
+                pressing: state[6],
+                flow: state[7],
+            },
+            spread: contact.spread,
+        })
+    }
+
+    /// Kinetic energy of a length of rod [J].
+    fn kinetic(&self, length: f64, speed: f64) -> f64 {
+        0.5 * self.rod.density * self.rod.area * length * speed * speed
+    }
+}
+
+/// Mass of target that moves with the floor, as the crater forms.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Zone {
+    /// At first contact: that of a floor as wide as the rod [kg].
+    first: f64,
+    /// Of the floor below the entry [kg].
+    full: f64,
+    /// Radius of that floor [m].
+    radius: f64,
+}
+
+impl Zone {
+    /// Mass at a depth [kg] and its slope [kg/m]: it grows with the area of the floor in contact, `1 − (1 − P/b)²`.
+    fn mass(&self, depth: f64) -> (f64, f64) {
+        let rest = (1.0 - depth / self.radius).clamp(0.0, 1.0);
+        let more = self.full - self.first;
+        (
+            self.full - more * rest * rest,
+            2.0 * more * rest / self.radius,
+        )
+    }
+}
+
+/// What rod and floor do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Phase {
+    /// The rod flows and the floor moves.
+    Flowing,
+    /// The rod flows on a floor at rest.
+    Flattening,
+    /// Rod and floor move as one.
+    Rigid,
+    /// The floor of an area [m2] moves on after the rod.
+    After(f64),
+}
+
+/// State right after the first contact.
+struct Contact {
+    zone: Zone,
+    rigid: bool,
+    floor: f64,
+    length: f64,
+    spread: f64,
+    shares: Shares,
+}
