@@ -116,8 +116,9 @@ fn own_rod(case: (&str, &str, f64, f64)) -> Vec<f64> {
 
 fn plate(material: &str, nose: &str, thickness: f64, speed: f64, cells: u32) -> Scenario {
     let text = format!(
-        "projectile = {{ material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', nose = '{nose}', impact_velocity = '{speed} m/s' }}\n\
-         target = {{ material = '{material}', thickness = '{} mm', back_face = 'free' }}\naxi.cells_per_radius = {cells}",
+        "projectile = {{ material = 'elastic', mass = '197 g', diameter = '20 mm', nose = '{nose}', impact_velocity = '{speed} m/s' }}\n\
+         target = {{ material = '{material}', thickness = '{} mm', back_face = 'free' }}\naxi.cells_per_radius = {cells}\n\
+         materials.elastic = {{ name = 'elastic', density = '7850 kg/m3', youngs_modulus = '210 GPa', poissons_ratio = 0.3, strength = {{ elastic = {{}} }} }}",
         20.0 * thickness
     );
     case::load_str("plate", &text).unwrap_or_else(|error| panic!("{error}"))
