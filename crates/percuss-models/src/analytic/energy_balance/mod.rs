@@ -94,10 +94,8 @@ impl EnergyBalance {
             return Err("the target's strength is beyond two thirds of its Young's modulus".into());
         }
         let (density, target_density) = rod.densities();
-        let (own, other) = (
-            density * sound_speed(rod.projectile),
-            target_density * sound_speed(rod.target),
-        );
+        let waves = [rod.projectile, rod.target].map(sound_speed);
+        let (own, other) = (density * waves[0], target_density * waves[1]);
         let motion = Motion {
             rod: RodFlow {
                 density,
@@ -111,6 +109,8 @@ impl EnergyBalance {
                 entry: options.entry(),
             },
             shock_share: own / (own + other),
+            wave_speed: waves[0],
+            wave_ratio: waves[1] / waves[0],
             mass_factor: 1.0,
         };
         Ok((rod, motion))

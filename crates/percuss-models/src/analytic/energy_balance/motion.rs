@@ -26,6 +26,9 @@ pub(super) struct Motion {
     pub(super) target: Target,
     /// Part of the impact velocity at which the faces move right after a plane impact: `Z_p/(Z_p + Z_t)`.
     pub(super) shock_share: f64,
+    /// Speed of that wave in the rod [m/s], and in the target over it.
+    pub(super) wave_speed: f64,
+    pub(super) wave_ratio: f64,
     /// Factor on the mass of target that moves with the floor: 1, or 0 in a limit.
     pub(super) mass_factor: f64,
 }
@@ -148,52 +151,52 @@ impl Motion {
         .map_err(failure)
     }
 
-    /// The first contact: a slice of the rod and the target's moving mass take the common speed of a plane impact, inelastically.
+    /// The first contact. Plane waves run until the release from the edge reaches the axis: a slice of the rod of the length of
+    /// its radius and the target that the wave has reached move at one speed, inelastically. Both stay with the floor.
     fn first_contact(&self, speed: f64, length: f64) -> Contact {
-        let rod = &self.rod;
+        let (rod, target) = (&self.rod, &self.target);
         let line = rod.density * rod.area;
+        let own_radius = (rod.area / PI).sqrt();
+        let rigid = target.deep() + 0.5 * target.density * speed * speed < rod.strength;
         let plane = speed * self.shock_share;
-        let rigid = self.target.deep() + 0.5 * self.target.density * speed * speed < rod.strength;
         let spread = match rigid {
             true => 1.0,
             false => rod.turned(speed - plane).spread,
         };
+        let radius = own_radius * spread.sqrt();
         let least = f64::EPSILON.sqrt() * line * length;
-        let mass_of = |area: f64| {
-            let radius = (area / PI).sqrt();
-            (self.mass_factor * self.target.moving_mass(radius)).max(least)
+        let struck = match rigid {
+            true => target.moving_mass(own_radius),
+            false => target.density * rod.area * own_radius * self.wave_ratio,
         };
-        let mass = mass_of(rod.area);
-        let zone = Zone {
-            first: mass,
-            full: mass_of(rod.area * spread),
-            radius: (rod.area * spread / PI).sqrt(),
+        let struck = (self.mass_factor * struck).max(least);
+        let full = (self.mass_factor * target.moving_mass(radius)).max(struck);
+        // The momentum of both waves is the same: it is the slice of length a.
+        let slice = struck * plane / (line * (speed - plane));
+        let (slice, joined) = match (rigid, slice < length) {
+            (true, _) => (0.0, line * length),
+            (false, true) => (slice, line * slice),
+            (false, false) => (length, line * length),
         };
-        let slice = mass * plane / (line * (speed - plane));
-        let whole = line * length * speed / (line * length + mass);
-        let (floor, slice) = match (rigid, slice < length) {
-            (true, _) => (whole, 0.0),
-            (false, true) => (plane, slice),
-            (false, false) => (whole, length),
-        };
-        // A rigid rod slows as a whole, a flowing one loses a slice, which stays at the speed of the floor.
-        let joined = if rigid { line * length } else { line * slice };
-        let debris = if rigid {
-            0.0
-        } else {
-            0.5 * joined * floor * floor
-        };
-        let kinetic = 0.5 * (joined + mass) * floor * floor;
+        let floor = joined * speed / (joined + struck);
         let shares = Shares {
-            shock: 0.5 * joined * speed * speed - kinetic,
-            debris,
+            shock: 0.5 * joined * speed * speed - 0.5 * (joined + struck) * floor * floor,
             ..Shares::default()
         };
+        let carried = line * slice;
+        let time = slice / self.wave_speed;
         Contact {
-            zone,
+            zone: Zone {
+                first: struck + carried,
+                full: full + carried,
+                radius,
+                from: floor * time,
+            },
             rigid,
             floor,
             length: length - slice,
+            depth: floor * time,
+            time,
             spread,
             shares,
         }
@@ -206,8 +209,17 @@ impl Motion {
     pub(super) fn penetrate(&self, speed: f64, length: f64) -> Result<Stop, NumericalError> {
         let contact = self.first_contact(speed, length);
         let tail = if contact.rigid { contact.floor } else { speed };
-        let mut state = [tail, contact.floor, contact.length, 0.0, 0.0, 0.0, 0.0, 0.0];
-        let mut time = 0.0;
+        let mut state = [
+            tail,
+            contact.floor,
+            contact.length,
+            contact.depth,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+        ];
+        let mut time = contact.time;
         let mut run = |state: &mut State, phase| -> Result<(), NumericalError> {
             let end = self.solve(*state, contact.zone, phase, (speed, length))?;
             *state = end.state;
@@ -251,7 +263,7 @@ impl Motion {
             shares: Shares {
                 shock: first.shock,
                 rod_plastic: state[4],
-                debris: first.debris + state[5] + left,
+                debris: state[5] + left,
                 pressing: state[6],
                 flow: state[7],
             },
@@ -268,18 +280,20 @@ impl Motion {
 /// Mass of target that moves with the floor, as the crater forms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Zone {
-    /// At first contact: that of a floor as wide as the rod [kg].
+    /// After the first contact [kg].
     first: f64,
     /// Of the floor below the entry [kg].
     full: f64,
     /// Radius of that floor [m].
     radius: f64,
+    /// Depth at which the growth begins [m].
+    from: f64,
 }
 
 impl Zone {
     /// Mass at a depth [kg] and its slope [kg/m]: it grows with the area of the floor in contact, `1 − (1 − P/b)²`.
     fn mass(&self, depth: f64) -> (f64, f64) {
-        let rest = (1.0 - depth / self.radius).clamp(0.0, 1.0);
+        let rest = (1.0 - (depth - self.from) / self.radius).clamp(0.0, 1.0);
         let more = self.full - self.first;
         (
             self.full - more * rest * rest,
@@ -307,6 +321,9 @@ struct Contact {
     rigid: bool,
     floor: f64,
     length: f64,
+    /// Depth [m] and time [s] of the plane waves.
+    depth: f64,
+    time: f64,
     spread: f64,
     shares: Shares,
 }
