@@ -10,6 +10,7 @@ mod forrestal;
 mod forrestal_concrete;
 mod gauss;
 mod hydrodynamic;
+mod impact_wave;
 mod lambert_jonas;
 mod lanz_odermatt;
 mod limit;

@@ -12,6 +12,7 @@ use self::{
 use super::{
     cavity_expansion::effective_yield_stress,
     dynamic_yield::mean_flow_stress,
+    impact_wave::ImpactWave,
     long_rod::{LongRod, NOT_ONE_TARGET, detail, rests_on, sharp_and_rigid},
     rod_flow::RodFlow,
 };
@@ -94,8 +95,6 @@ impl EnergyBalance {
             return Err("the target's strength is beyond two thirds of its Young's modulus".into());
         }
         let (density, target_density) = rod.densities();
-        let waves = [rod.projectile, rod.target].map(sound_speed);
-        let (own, other) = (density * waves[0], target_density * waves[1]);
         let motion = Motion {
             rod: RodFlow {
                 density,
@@ -108,20 +107,10 @@ impl EnergyBalance {
                 youngs_modulus,
                 entry: options.entry(),
             },
-            shock_share: own / (own + other),
-            wave_speed: waves[0],
-            wave_ratio: waves[1] / waves[0],
+            wave: ImpactWave::of(rod.projectile, rod.target),
             mass_factor: 1.0,
         };
         Ok((rod, motion))
-    }
-}
-
-/// Speed of a weak plane wave in the bulk of a material [m/s].
-fn sound_speed(material: &Material) -> f64 {
-    match &material.equation_of_state {
-        Some(state) => state.sound_speed.si(),
-        None => (material.bulk_modulus() / material.density.si()).sqrt(),
     }
 }
 

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::{
     super::{
+        impact_wave::ImpactWave,
         long_rod::failure,
         ode::{FinalState, Problem},
         rod_flow::RodFlow,
@@ -19,16 +20,12 @@ const STOPPED: f64 = 1e-7;
 /// Part of the length at which a rod counts as used up.
 const USED_UP: f64 = 1e-7;
 
-/// A rod, a target and the speeds of plane waves in both.
+/// A rod, a target and the waves of their first contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Motion {
     pub(super) rod: RodFlow,
     pub(super) target: Target,
-    /// Part of the impact velocity at which the faces move right after a plane impact: `Z_p/(Z_p + Z_t)`.
-    pub(super) shock_share: f64,
-    /// Speed of that wave in the rod [m/s], and in the target over it.
-    pub(super) wave_speed: f64,
-    pub(super) wave_ratio: f64,
+    pub(super) wave: ImpactWave,
     /// Factor on the mass of target that moves with the floor: 1, or 0 in a limit.
     pub(super) mass_factor: f64,
 }
@@ -158,7 +155,7 @@ impl Motion {
         let line = rod.density * rod.area;
         let own_radius = (rod.area / PI).sqrt();
         let rigid = target.deep() + 0.5 * target.density * speed * speed < rod.strength;
-        let plane = speed * self.shock_share;
+        let plane = speed * self.wave.share;
         let spread = match rigid {
             true => 1.0,
             false => rod.turned(speed - plane).spread,
@@ -167,7 +164,7 @@ impl Motion {
         let least = f64::EPSILON.sqrt() * line * length;
         let struck = match rigid {
             true => target.moving_mass(own_radius),
-            false => target.density * rod.area * own_radius * self.wave_ratio,
+            false => target.density * rod.area * own_radius * self.wave.ratio,
         };
         let struck = (self.mass_factor * struck).max(least);
         let full = (self.mass_factor * target.moving_mass(radius)).max(struck);
@@ -184,7 +181,7 @@ impl Motion {
             ..Shares::default()
         };
         let carried = line * slice;
-        let time = slice / self.wave_speed;
+        let time = slice / self.wave.speed;
         Contact {
             zone: Zone {
                 first: struck + carried,

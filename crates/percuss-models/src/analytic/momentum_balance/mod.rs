@@ -8,13 +8,14 @@ mod zone;
 use self::{motion::Motion, zone::Zone};
 use super::{
     cavity_expansion::CavityExpansion,
+    impact_wave::ImpactWave,
     long_rod::{LongRod, NOT_ONE_TARGET, detail, rests_on, sharp_and_rigid, strength},
     rod_flow::RodFlow,
 };
 use crate::{
     Error, Refusal, Scenario,
     outcome::{BandQuantity, Outcome, RunResult, Termination},
-    regime::{ProjectileRegime, TargetKind},
+    regime::TargetKind,
     solver::{Control, Model},
     units::{Length, Pressure},
     validity::{Measure, Outside, Range, ValidityDomain},
@@ -81,6 +82,8 @@ impl MomentumBalance {
             },
             zone: Zone::new(&body, options.shear()),
             radius: 0.5 * rod.diameter,
+            wave: ImpactWave::of(rod.projectile, rod.target),
+            slice: 0.5 * rod.diameter,
         };
         let extent = motion.zone.extent(0.0);
         if extent.is_nan() || extent <= 1.0 {
@@ -88,6 +91,7 @@ impl MomentumBalance {
                 "the target's strength is so near its stiffness that no plastic zone forms".into(),
             );
         }
+        // A rod that stays rigid has a floor of its own width.
         let arriving = rod.speed - motion.first_speed(rod.speed);
         motion.radius = options.crater_radius.map_or_else(
             || motion.radius * motion.rod.turned(arriving).spread.sqrt(),
@@ -113,7 +117,6 @@ impl Model for MomentumBalance {
                     BandQuantity::DepthOfPenetration,
                     BandQuantity::ProjectileFinalLength,
                 ],
-                projectile: &[ProjectileRegime::Eroding, ProjectileRegime::Rigid],
                 targets: TargetKind::DEEP,
                 ranges: RANGES,
                 sees_back_face: false,

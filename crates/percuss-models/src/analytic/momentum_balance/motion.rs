@@ -2,6 +2,7 @@
 
 use super::{
     super::{
+        impact_wave::ImpactWave,
         long_rod::failure,
         ode::{FinalState, Problem},
         rod_flow::RodFlow,
@@ -27,6 +28,18 @@ pub(super) struct Motion {
     pub(super) zone: Zone,
     /// Radius of the floor [m].
     pub(super) radius: f64,
+    pub(super) wave: ImpactWave,
+    /// Length of the slice of the rod that plane waves stop at first [m]: its radius, or 0 in a limit.
+    pub(super) slice: f64,
+}
+
+/// Mass of target and rod per area that moves with the floor [kg/m2]; it grows with the area of the floor in contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Moving {
+    first: f64,
+    full: f64,
+    /// Depth at which the growth begins [m].
+    from: f64,
 }
 
 /// Tail speed, floor speed, length, depth, and the momentum on the axis that has left it [m/s, m/s, m, m, Pa s].
@@ -54,20 +67,19 @@ enum Phase {
 }
 
 impl Motion {
-    /// Part of the zone that a depth [m] has formed, and its slope [1/m]: that of the floor's area in contact, `1 − (1 − P/b)²`.
-    fn formed(&self, depth: f64) -> (f64, f64) {
-        let rest = (1.0 - depth / self.radius).max(0.0);
-        (1.0 - rest * rest, 2.0 * rest / self.radius)
-    }
-
     /// Mass of target per area that moves with the floor once the zone has formed [kg/m2].
-    fn full_mass(&self) -> f64 {
+    pub(super) fn full_mass(&self) -> f64 {
         self.zone.density * self.radius * Zone::moving_length(self.zone.extent(0.0))
     }
 
-    /// Mass of target per area that moves with the floor at a depth [m] [kg/m2].
-    pub(super) fn moving_mass(&self, depth: f64) -> f64 {
-        self.full_mass() * self.formed(depth).0
+    /// The moving mass at a depth [m] [kg/m2] and its slope [kg/m3]: grown by `1 − (1 − P/b)²`.
+    fn moving_mass(&self, moving: Moving, depth: f64) -> (f64, f64) {
+        let rest = (1.0 - (depth - moving.from) / self.radius).clamp(0.0, 1.0);
+        let more = moving.full - moving.first;
+        (
+            moving.full - more * rest * rest,
+            2.0 * more * rest / self.radius,
+        )
     }
 
     /// Pressure of the target at the middle of a floor in steady flow [Pa].
@@ -75,11 +87,11 @@ impl Motion {
         self.zone.resistance(self.zone.extent(floor)) + 0.5 * self.zone.density * floor * floor
     }
 
-    /// Speed of the floor right after impact [m/s]: the target's pressure, with that of the zone which forms, is that of the rod.
+    /// Speed of the floor in a zone that forms from nothing [m/s]: the target's pressure, with that of the zone which forms, is that of the rod.
     /// Zero where the rod does not penetrate, and the impact velocity where it stays rigid.
     pub(super) fn first_speed(&self, speed: f64) -> f64 {
         let excess = |floor: f64| {
-            let forming = self.full_mass() * self.formed(0.0).1 * floor * floor;
+            let forming = 2.0 * self.full_mass() / self.radius * floor * floor;
             self.rod.strength + 0.5 * self.rod.density * (speed - floor).powi(2)
                 - self.against(floor)
                 - forming
@@ -102,12 +114,16 @@ impl Motion {
         f64::midpoint(low, high)
     }
 
-    fn rates(&self, &[tail, floor, length, depth, _]: &State, phase: Phase) -> State {
+    fn rates(
+        &self,
+        &[tail, floor, length, depth, _]: &State,
+        moving: Moving,
+        phase: Phase,
+    ) -> State {
         let rod = &self.rod;
         let speed = floor.max(0.0);
-        let (formed, formed_slope) = self.formed(depth);
-        let mass = self.full_mass() * formed;
-        let forming = self.full_mass() * formed_slope * speed * speed;
+        let (mass, growth) = self.moving_mass(moving, depth);
+        let forming = growth * speed * speed;
         let against = self.against(speed);
         let own = rod.density * length;
         match phase {
@@ -134,6 +150,7 @@ impl Motion {
     fn solve(
         &self,
         start: State,
+        moving: Moving,
         phase: Phase,
         (speed, length): (f64, f64),
     ) -> Result<FinalState<5>, NumericalError> {
@@ -145,7 +162,7 @@ impl Motion {
         };
         let momentum = self.rod.density * length * speed;
         Problem {
-            rates: &|state| self.rates(state, phase),
+            rates: &|state| self.rates(state, moving, phase),
             event: &event,
             relative: TOLERANCE,
             absolute: [
@@ -162,8 +179,42 @@ impl Motion {
     }
 
     /// Momentum per area on the axis [Pa s].
-    fn momentum(&self, &[tail, floor, length, depth, _]: &State) -> f64 {
-        self.rod.density * length * tail + self.moving_mass(depth) * floor
+    fn momentum(&self, moving: Moving, &[tail, floor, length, depth, _]: &State) -> f64 {
+        self.rod.density * length * tail + self.moving_mass(moving, depth).0 * floor
+    }
+
+    /// State and moving mass after the first contact: a slice of a rod that flows and the target that the wave has reached move at one
+    /// speed, with the momentum of the rod. A rigid rod meets a zone that forms from nothing.
+    fn first_contact(&self, speed: f64, length: f64) -> (State, Moving, f64) {
+        let slice = self.slice.min(length);
+        let full = self.full_mass();
+        if slice <= 0.0 || self.rod.strength > self.against(speed) {
+            let from = FIRST_DEPTH * self.radius;
+            let moving = Moving {
+                first: 0.0,
+                full,
+                from: 0.0,
+            };
+            return (
+                [speed, self.first_speed(speed), length, from, 0.0],
+                moving,
+                0.0,
+            );
+        }
+        let struck = self.zone.density * self.wave.ratio * slice;
+        let carried = self.rod.density * slice;
+        let floor = speed * self.wave.share;
+        let time = slice / self.wave.speed;
+        let moving = Moving {
+            first: struck + carried,
+            full: struck.max(full) + carried,
+            from: floor * time,
+        };
+        (
+            [speed, floor, length - slice, floor * time, 0.0],
+            moving,
+            time,
+        )
     }
 
     /// Follows a rod of a length [m] from its impact at a speed [m/s] to rest.
@@ -171,14 +222,14 @@ impl Motion {
     /// # Errors
     /// When an integration finds no end.
     pub(super) fn penetrate(&self, speed: f64, length: f64) -> Result<Stop, NumericalError> {
-        let first_speed = self.first_speed(speed);
-        let mut state = [speed, first_speed, length, FIRST_DEPTH * self.radius, 0.0];
+        let (mut state, moving, time) = self.first_contact(speed, length);
+        let first_speed = state[1];
         let mut stop = Stop {
             depth: 0.0,
             after_erosion: 0.0,
             length,
             first_speed,
-            time: 0.0,
+            time,
             balance_error: 0.0,
         };
         let (density, strength) = (self.rod.density, self.rod.strength);
@@ -188,25 +239,25 @@ impl Motion {
             stop.length = flattened(length, speed);
             return Ok(stop);
         }
-        let start = self.momentum(&state);
-        if first_speed < speed {
-            let end = self.solve(state, Phase::Flowing, (speed, length))?;
+        let start = self.momentum(moving, &state);
+        if first_speed < speed && state[2] > USED_UP * length {
+            let end = self.solve(state, moving, Phase::Flowing, (speed, length))?;
             state = end.state;
-            stop.time = end.time;
+            stop.time += end.time;
         }
         let before = state[3];
         if state[2] <= 2.0 * USED_UP * length {
-            let end = self.solve(state, Phase::After, (speed, length))?;
+            let end = self.solve(state, moving, Phase::After, (speed, length))?;
             (state, stop.time, stop.length) = (end.state, stop.time + end.time, 0.0);
         } else if state[1] <= 2.0 * STOPPED * speed {
             stop.length = flattened(state[2], state[0]);
         } else {
-            let end = self.solve(state, Phase::Rigid, (speed, length))?;
+            let end = self.solve(state, moving, Phase::Rigid, (speed, length))?;
             (state, stop.time, stop.length) = (end.state, stop.time + end.time, state[2]);
         }
         stop.depth = state[3];
         stop.after_erosion = state[3] - before;
-        stop.balance_error = (self.momentum(&state) + state[4] - start) / start;
+        stop.balance_error = (self.momentum(moving, &state) + state[4] - start) / start;
         Ok(stop)
     }
 }

@@ -1,7 +1,10 @@
 use std::f64::consts::PI;
 
 use super::{
-    super::{cavity_expansion::CavityExpansion, gauss::integral, rod_flow::RodFlow, tate::Rods},
+    super::{
+        cavity_expansion::CavityExpansion, gauss::integral, impact_wave::ImpactWave,
+        rod_flow::RodFlow, tate::Rods,
+    },
     motion::Motion,
     zone::Zone,
 };
@@ -22,6 +25,12 @@ fn tungsten_on_steel() -> Motion {
         },
         zone: Zone::new(&STEEL, true),
         radius: 4e-3,
+        wave: ImpactWave {
+            share: 17600.0 * 4030.0 / (17600.0 * 4030.0 + 7850.0 * 4570.0),
+            speed: 4030.0,
+            ratio: 4570.0 / 4030.0,
+        },
+        slice: 2.5e-3,
     }
 }
 
@@ -116,6 +125,7 @@ fn it_tends_to_tate_as_the_moving_mass_vanishes() {
                 motion.rod.strength = strength;
                 motion.zone = constant(motion.zone, alpha);
                 motion.radius = radius;
+                motion.slice = 0.0;
                 let rods = Rods {
                     projectile_density: 17600.0,
                     target_density: 7850.0,
@@ -157,7 +167,7 @@ fn a_rigid_rod_is_poncelets() {
     // With a formed zone its mass goes with the rod's: the depth of a heavier rod, less the energy that forming takes.
     motion.radius = 4e-3;
     let stop = motion.penetrate(500.0, 0.1).unwrap();
-    let heavier = 17600.0 * 0.1 + motion.moving_mass(1.0);
+    let heavier = 17600.0 * 0.1 + motion.full_mass();
     let bound = heavier / 7850.0 * (7850.0 * 500.0 * 500.0 / (2.0 * resistance)).ln_1p();
     assert!(
         stop.depth < bound && stop.depth > 0.97 * bound,
@@ -190,7 +200,7 @@ fn the_momentum_balance_closes() {
     assert!(worst < 1e-5, "{worst:e}");
 }
 
-/// The target's own motion goes on after the erosion: deeper by less than the diameter of the floor, the more the faster.
+/// The target's own motion goes on after the erosion: deeper by a few radii of the floor, the more the faster.
 #[test]
 fn the_flow_after_the_erosion_adds_depth() {
     let motion = tungsten_on_steel();
@@ -200,5 +210,5 @@ fn the_flow_after_the_erosion_adds_depth() {
         assert!(stop.after_erosion > before, "{speed} {stop:?}");
         before = stop.after_erosion;
     }
-    assert!(before < 2.0 * motion.radius, "{before}");
+    assert!(before < 5.0 * motion.radius, "{before}");
 }
