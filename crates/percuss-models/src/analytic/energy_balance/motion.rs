@@ -81,17 +81,19 @@ impl Motion {
         let (rod, target) = (&self.rod, &self.target);
         let arriving = match phase {
             Phase::Flowing | Phase::Flattening => (tail - floor).max(0.0),
-            Phase::Rigid | Phase::After(_) => 0.0,
+            Phase::Joined => 0.0,
         };
         let turned = rod.turned(arriving);
+        let (mass, growth) = zone.mass(depth);
+        let own = rod.density * rod.area * length;
         let area = match phase {
-            Phase::After(area) => area,
+            // Rod and zone go on as one, each through an area of its own.
+            Phase::Joined => (own * rod.area + mass * zone.area()) / (own + mass),
             _ => rod.area * turned.spread,
         };
         let resistance = target.resistance(depth, (area / PI).sqrt());
         let inertia = 0.5 * target.density * floor * floor;
         let against = area * (resistance + inertia);
-        let (mass, growth) = zone.mass(depth);
         // What the growth of the mass takes: its kinetic energy is ½MU².
         let forming = 0.5 * growth * floor * floor;
         let (tail_rate, floor_rate) = match phase {
@@ -100,11 +102,10 @@ impl Motion {
                 (rod.force(arriving, turned) - against - forming) / mass,
             ),
             Phase::Flattening => (-rod.strength / (rod.density * length), 0.0),
-            Phase::Rigid => {
-                let rate = -(against + forming) / (mass + rod.density * rod.area * length);
+            Phase::Joined => {
+                let rate = -(against + forming) / (mass + own);
                 (rate, rate)
             }
-            Phase::After(_) => (0.0, -(against + forming) / mass),
         };
         let flux = rod.area * arriving;
         let debris = floor - turned.leaving * arriving;
@@ -134,7 +135,7 @@ impl Motion {
                 .min(floor / speed - STOPPED)
                 .min(left / length - USED_UP),
             Phase::Flattening => (tail / speed - STOPPED).min(left / length - USED_UP),
-            Phase::Rigid | Phase::After(_) => floor,
+            Phase::Joined => floor,
         };
         let [v, l, e] = [speed, length, energy].map(|scale| TOLERANCE * scale);
         Problem {
@@ -223,10 +224,8 @@ impl Motion {
             time += end.time;
             Ok(())
         };
-        let mut area = self.rod.area * contact.spread;
         if !contact.rigid && contact.length > USED_UP * length {
             run(&mut state, Phase::Flowing)?;
-            area = self.rod.area * self.rod.turned((state[0] - state[1]).max(0.0)).spread;
         }
         let before = state[3];
         let mut left;
@@ -234,7 +233,8 @@ impl Motion {
             // What is left of the rod goes with the debris.
             left = self.kinetic(state[2], state[0]);
             state[2] = 0.0;
-            run(&mut state, Phase::After(area))?;
+            state[0] = state[1];
+            run(&mut state, Phase::Joined)?;
         } else if state[1] <= 2.0 * STOPPED * speed {
             left = 0.5 * contact.zone.mass(state[3]).0 * state[1] * state[1];
             state[1] = 0.0;
@@ -249,7 +249,7 @@ impl Motion {
                 - 0.5 * (own + mass) * common * common;
             left = lost;
             (state[0], state[1]) = (common, common);
-            run(&mut state, Phase::Rigid)?;
+            run(&mut state, Phase::Joined)?;
         }
         let first = contact.shares;
         Ok(Stop {
@@ -288,6 +288,11 @@ struct Zone {
 }
 
 impl Zone {
+    /// Area of the floor [m2].
+    fn area(&self) -> f64 {
+        PI * self.radius * self.radius
+    }
+
     /// Mass at a depth [kg] and its slope [kg/m]: it grows with the area of the floor in contact, `1 − (1 − P/b)²`.
     fn mass(&self, depth: f64) -> (f64, f64) {
         let rest = (1.0 - (depth - self.from) / self.radius).clamp(0.0, 1.0);
@@ -306,10 +311,8 @@ enum Phase {
     Flowing,
     /// The rod flows on a floor at rest.
     Flattening,
-    /// Rod and floor move as one.
-    Rigid,
-    /// The floor of an area [m2] moves on after the rod.
-    After(f64),
+    /// What is left of the rod and the floor move as one.
+    Joined,
 }
 
 /// State right after the first contact.
