@@ -6,9 +6,9 @@ mod recommend;
 use crate::{
     Error,
     analytic::{
-        AwerbuchBodner, CraterEnergy, Forrestal, ForrestalConcrete, Hydrodynamic, LambertJonas,
-        LanzOdermatt, PlateCavity, Plugging, Poncelet, PowerBalance, QuasiStatic, RechtIpson, Tate,
-        Taylor, WalkerAnderson, WilkinsGuinan,
+        AwerbuchBodner, CraterEnergy, EnergyBalance, Forrestal, ForrestalConcrete, Hydrodynamic,
+        LambertJonas, LanzOdermatt, MomentumBalance, PlateCavity, Plugging, Poncelet, PowerBalance,
+        QuasiStatic, RechtIpson, Tate, Taylor, WalkerAnderson, WilkinsGuinan,
     },
     axi::Axi,
     chain::Chain,
@@ -42,6 +42,8 @@ pub static MODELS: &[&dyn Model] = &[
     &QuasiStatic,
     &Poncelet,
     &CraterEnergy,
+    &EnergyBalance,
+    &MomentumBalance,
     &Taylor,
     &WilkinsGuinan,
     &PlateCavity,

@@ -145,6 +145,12 @@ const KNOWN_FAILURES: &[(&str, Identity, &str)] = &[
     ("tate", Identity::FasterGoesDeeper, STRONGER_RODS),
     ("walker_anderson", Identity::FasterGoesDeeper, STRONGER_RODS),
     ("crater_energy", Identity::FasterGoesDeeper, STRONGER_RODS),
+    ("energy_balance", Identity::FasterGoesDeeper, STRONGER_RODS),
+    (
+        "momentum_balance",
+        Identity::FasterGoesDeeper,
+        STRONGER_RODS,
+    ),
 ];
 
 const STRONGER_RODS: &str = "a rod that is stronger than its target goes deepest where it just stays rigid, and less deep once it \

@@ -37,6 +37,12 @@ const fn of_formula(model: &'static str, shot: [&'static str; 2]) -> Try {
     }
 }
 
+/// A long rod that erodes.
+const LONG: [&str; 2] = [
+    "material = 'tungsten-alloy-steinberg', length = '50 mm', diameter = '5 mm', impact_velocity = '1500 m/s'",
+    "material = '4340-johnson-cook', thickness = '200 mm'",
+];
+
 const PLATE: [&str; 2] = [
     "material = 'tool-steel-hrc53', length = '20 mm', diameter = '20 mm', impact_velocity = '500 m/s'",
     "material = 'weldox-460-e', thickness = '12 mm', back_face = 'free'",
@@ -49,7 +55,7 @@ const PIN: [&str; 2] = [
 ];
 const HARD: &str = "materials.hard = { name = 'Elastic', density = '2500 kg/m3', youngs_modulus = '70 GPa', poissons_ratio = 0.22, strength.elastic = {} }";
 
-const TRIES: [Try; 12] = [
+const TRIES: [Try; 14] = [
     Try {
         shot: THICK,
         model: "chain",
@@ -109,6 +115,8 @@ const TRIES: [Try; 12] = [
     ),
     of_formula("wilkins_guinan", [ROD[0], "rigid_wall = true"]),
     of_formula("power_balance", PLATE),
+    of_formula("energy_balance", LONG),
+    of_formula("momentum_balance", LONG),
 ];
 
 /// Keys of options that are given beside the defaults, so that none of them is tried.

@@ -2,6 +2,7 @@
 
 mod axi;
 mod axi_output;
+mod balances;
 mod built_in_code;
 mod cases;
 mod checkpoints;

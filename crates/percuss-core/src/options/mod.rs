@@ -8,12 +8,14 @@ mod chain_enums;
 mod constraint_factor;
 mod crater_energy;
 mod defaults;
+mod energy_balance;
 mod failure_options;
 mod fdm;
 mod forrestal;
 mod forrestal_concrete;
 mod lambert_jonas;
 mod lanz_odermatt;
+mod momentum_balance;
 mod number_or_name;
 mod particles;
 mod plate_cavity;
@@ -37,11 +39,13 @@ pub use chain_enums::{
 pub use constraint_factor::constraint_factor;
 pub use crater_energy::CraterEnergyOptions;
 pub use defaults::MAX_STEPS;
+pub use energy_balance::EnergyBalanceOptions;
 pub use fdm::{FdmOptions, Geometry};
 pub use forrestal::{Cavity, Entry, ForrestalOptions};
 pub use forrestal_concrete::ForrestalConcreteOptions;
 pub use lambert_jonas::LambertJonasOptions;
 pub use lanz_odermatt::LanzOdermattOptions;
+pub use momentum_balance::MomentumBalanceOptions;
 pub use number_or_name::{ConstraintFactor, ErosionStrain};
 pub use particles::{PackingKind, ParticlesOptions, Space};
 pub use plate_cavity::{CavityShape, PlateCavityOptions};
@@ -84,6 +88,8 @@ macro_rules! with_model_options {
             lambert_jonas: $crate::options::LambertJonasOptions,
             awerbuch_bodner: $crate::options::AwerbuchBodnerOptions,
             power_balance: $crate::options::PowerBalanceOptions,
+            energy_balance: $crate::options::EnergyBalanceOptions,
+            momentum_balance: $crate::options::MomentumBalanceOptions,
         }
     };
 }

@@ -133,6 +133,16 @@ impl CavityExpansion {
         }
     }
 
+    /// Expansion speeds [m/s] and radii of the interface over those of the cavity, for interface speeds from zero to the largest, evenly spaced.
+    pub(super) fn extents(&self, steps: u32) -> Vec<(f64, f64)> {
+        let of = |i: u32| {
+            let interface = LARGEST_INTERFACE_SPEED * f64::from(i) / f64::from(steps);
+            let ratio = self.at_cavity(interface).ratio;
+            (ratio * interface * self.bulk_sound_speed(), 1.0 / ratio)
+        };
+        (0..=steps).map(of).collect()
+    }
+
     /// Expansion speed [m/s] for an interface speed over the bulk sound speed.
     fn speed(&self, interface: f64) -> f64 {
         self.at_cavity(interface).ratio * interface * self.bulk_sound_speed()

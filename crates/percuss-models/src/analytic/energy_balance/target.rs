@@ -1,0 +1,53 @@
+//! Work and kinetic energy of the target around the floor of a crater.
+
+use std::f64::consts::PI;
+
+/// Least mean pressure of the field of a flat punch on a free surface over the flow stress, as in model `power_balance`.
+const PUNCH: f64 = 3.19;
+/// Radius of that field over the punch's.
+const PUNCH_REACH: f64 = 2.31;
+
+/// A target that flows at one stress.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Target {
+    /// Density [kg/m3].
+    pub(super) density: f64,
+    /// Flow stress [Pa].
+    pub(super) strength: f64,
+    /// Young's modulus [Pa].
+    pub(super) youngs_modulus: f64,
+    /// Whether the free surface around the entry lowers the resistance.
+    pub(super) entry: bool,
+}
+
+impl Target {
+    /// Energy per volume of a deep crater [J/m3]: the pressure of an incompressible spherical cavity, `(2Y/3)[1 + ln(2E/3Y)]`.
+    pub(super) fn deep(&self) -> f64 {
+        let ratio = 2.0 * self.youngs_modulus / (3.0 * self.strength);
+        2.0 / 3.0 * self.strength * (1.0 + ratio.ln())
+    }
+
+    /// Energy per volume that a floor at a depth [m] takes [J/m3]: the least of two fields.
+    ///
+    /// At the surface metal rises around a punch. From a deeper floor it has to lift a collar of that depth, which shears along
+    /// its outer face: `2πRPτ` at the speed `a²/(R² − a²)`.
+    pub(super) fn resistance(&self, depth: f64, radius: f64) -> f64 {
+        if !self.entry {
+            return self.deep();
+        }
+        let collar = 2.0 * PUNCH_REACH / (PUNCH_REACH * PUNCH_REACH - 1.0) / 3.0_f64.sqrt();
+        (self.strength * (PUNCH + collar * depth.max(0.0) / radius)).min(self.deep())
+    }
+
+    /// Extent of the plastic zone in radii of the floor: `(2E/3Y)^⅓`.
+    pub(super) fn extent(&self) -> f64 {
+        (2.0 * self.youngs_modulus / (3.0 * self.strength)).cbrt()
+    }
+
+    /// Mass that moves with a hemispherical floor of a radius [m] [kg]: twice its kinetic energy over U² in the irrotational
+    /// flow between the floor and the end of the plastic zone, `⅓πρb³ (α³ + 2)/(α³ − 1)`.
+    pub(super) fn moving_mass(&self, radius: f64) -> f64 {
+        let cube = self.extent().powi(3);
+        PI / 3.0 * self.density * radius.powi(3) * (cube + 2.0) / (cube - 1.0)
+    }
+}
