@@ -155,7 +155,7 @@ chain = { projectile_elements = 10 }
 #[test]
 fn a_long_case_says_what_it_would_cost() {
     let long = r#"
-projectile = { material = "4340", length = "200 mm", diameter = "5 mm", impact_velocity = "1500 m/s" }
+projectile = { material = "4340", length = "300 mm", diameter = "5 mm", impact_velocity = "1500 m/s" }
 target = { material = "6061-t6", thickness = "semi-infinite" }
 chain = { projectile_elements = 20 }
 "#;

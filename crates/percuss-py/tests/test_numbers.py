@@ -120,6 +120,23 @@ def test_every_command_gives_the_answer_of_the_program(program: Program, tmp_pat
     said = answer(program, "materials", "compare", "rha", "4340", "--rate", "1 1/s", "--temperature", "400 K")
     assert [c.to_dict() for c in curves] == said and len(curves) == 2
 
+    deck = tmp_path / "steel.k"
+    text = percuss.export_materials("4340-johnson-cook", format="ls-dyna", units="mm-t-s", out=deck)
+    assert text == deck.read_text(encoding="utf-8")
+    imported = percuss.import_materials(deck, units="mm-t-s")
+    assert imported.to_dict() == answer(program, "materials", "import", str(deck), "--units", "mm-t-s")
+    [(name, steel)] = imported.records.to_dict().items()
+    rod = {"material": name, "length": "25 mm", "diameter": "8 mm", "impact_velocity": "200 m/s"}
+    own = percuss.run(percuss.Case(projectile=rod, target={"rigid_wall": True}, materials={name: steel}), model="taylor")
+    known = percuss.run(
+        percuss.Case(projectile=rod | {"material": "4340-johnson-cook"}, target={"rigid_wall": True}), model="taylor"
+    )
+    assert own.projectile_final_length_mm == pytest.approx(known.projectile_final_length_mm, rel=1e-2)
+    with pytest.raises(percuss.CaseError, match="steel.k"):
+        percuss.import_materials(deck, units="in-lbf-s")
+    with pytest.raises(percuss.ReadError):
+        percuss.import_materials(tmp_path / "gone.k", units="mm-t-s")
+
     shots = tmp_path / "shots.csv"
     shots.write_text("impact_velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
     assert percuss.limit(shots=shots).to_dict() == answer(program, "limit", "--shots", str(shots))

@@ -34,7 +34,7 @@ from .errors import (
     WriteError,
 )
 from .history import Gauge, History, Profile, SiColumns
-from .library import Material, Model, flow_curves, material, materials, model, models, new, schema
+from .library import Material, Model, export_materials, flow_curves, import_materials, material, materials, model, models, new, schema
 from .progress import Progress
 from .record import Record, Records, Result
 from .reproduction import Reproduction, reproduce
@@ -83,7 +83,9 @@ __all__ = [
     "calibrate",
     "compare",
     "converge",
+    "export_materials",
     "flow_curves",
+    "import_materials",
     "limit",
     "load",
     "material",

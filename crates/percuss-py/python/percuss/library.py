@@ -153,6 +153,81 @@ def flow_curves(
     return Records(map(Record, curves), "material", "strain_rate_per_s", "temperature_k")
 
 
+def export_materials(
+    *names: str,
+    format: str | None = None,
+    units: str | None = None,
+    case: CaseLike | None = None,
+    file: Path | None = None,
+    out: Path | None = None,
+) -> str:
+    """Returns records of materials as text for a file of materials or a deck of LS-DYNA.
+
+    Parameters
+    ----------
+    names : str
+        Ids, families or aliases.
+    format : str, optional
+        ``"toml"``, records as in a case file, or ``"ls-dyna"``, cards of a deck; TOML when not given.
+    units : str, optional
+        Unit system of a deck: length, mass and time, such as ``"mm-kg-ms"``.
+    case, file : optional
+        As in :func:`materials`.
+    out : path, optional
+        File for the text.
+
+    Raises
+    ------
+    MaterialError
+        When a name is unknown or stands for several materials.
+    UsageError
+        When a deck has no units, or a material has no place in its cards.
+
+    Examples
+    --------
+    >>> print(percuss.export_materials("4340-johnson-cook", format="ls-dyna", units="mm-kg-ms").splitlines()[2])
+    *MAT_JOHNSON_COOK_TITLE
+    """
+    found = answer("materials export", *names, format=format, units=units, case=case, file=file, out=out)
+    return str(found["text"])
+
+
+def import_materials(deck: Path, *, units: str, out: Path | None = None) -> Record:
+    """Reads materials from a deck of LS-DYNA.
+
+    Parameters
+    ----------
+    deck : path
+        Deck with ``*MAT_JOHNSON_COOK``, ``*MAT_SIMPLIFIED_JOHNSON_COOK`` and ``*EOS_GRUNEISEN``.
+    units : str
+        Unit system of the deck: length, mass and time, such as ``"mm-kg-ms"``.
+    out : path, optional
+        File for the records as TOML, which ``material_files`` of a case can name.
+
+    Returns
+    -------
+    Record of ``records``, the materials by their ids with the keys and units of a case file, and ``warnings``: what was left out or
+    taken otherwise.
+
+    Raises
+    ------
+    ReadError
+        When the deck cannot be read.
+    CaseError
+        When a value is outside its range or the deck is not understood; it names file and line.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> deck = pathlib.Path(tempfile.mkdtemp(), "steel.k")
+    >>> text = percuss.export_materials("4340-johnson-cook", format="ls-dyna", units="mm-kg-ms", out=deck)
+    >>> found = percuss.import_materials(deck, units="mm-kg-ms")
+    >>> [record.density for record in (found.records[id] for id in found.records)]
+    ['7830 kg/m3']
+    """
+    return Record(answer("materials import", deck, units=units, out=out))
+
+
 def material(name: str, *, case: CaseLike | None = None, file: Path | None = None) -> Material:
     """Returns all constants of a material, by its id, its family or an alias.
 

@@ -203,7 +203,7 @@ fn supported(bodies: Vec<Body>, supports: Vec<BoundaryConditions>, cell: f64) ->
         supports,
         contact: Contact::Frictional(0.0),
         mesh: Mesh::even(cell),
-        courant: 0.7,
+        courant: 0.5,
         limits: Limits {
             radius: f64::INFINITY,
             back: f64::NEG_INFINITY,
