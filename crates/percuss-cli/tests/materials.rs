@@ -267,6 +267,25 @@ fn a_deck_is_written_and_read_and_run() {
     let (own, library) = (depth("own.toml"), depth("library.toml"));
     assert!((own / library - 1.0).abs() < 1e-2, "{own} {library}");
 
+    let idle = percuss(
+        here,
+        [
+            "materials",
+            "import",
+            "metals.k",
+            "--units",
+            "mm-kg-ms",
+            "--file",
+            "own.toml",
+        ],
+    );
+    assert_eq!(idle.code, 2);
+    assert!(
+        idle.stderr
+            .contains("`--file` has no effect with `materials import`"),
+        "{}",
+        idle.stderr
+    );
     let gone = percuss(
         here,
         ["materials", "import", "gone.k", "--units", "mm-kg-ms"],

@@ -95,6 +95,7 @@ enum Action {
 
 impl Materials {
     pub fn run(&self) -> Result<(), Failure> {
+        self.check()?;
         let library = self.library(&VirtualFiles::default())?;
         match &self.action {
             None => list::list(&self.listed(&library)?, self.json),
@@ -107,6 +108,7 @@ impl Materials {
 
     /// Output of --json.
     pub fn execute(&self, virtual_files: &VirtualFiles) -> Result<Response, Failure> {
+        self.check()?;
         let library = self.library(virtual_files)?;
         match &self.action {
             None => Response::json_of(&list::records(&self.listed(&library)?), Vec::new()),
@@ -114,6 +116,20 @@ impl Materials {
             Some(Action::Compare(compare)) => compare.execute(&library),
             Some(Action::Export(export)) => export.execute(&library),
             Some(Action::Import(import)) => import.execute(),
+        }
+    }
+
+    /// Fails where an option of all these commands has no effect.
+    fn check(&self) -> Result<(), Failure> {
+        let given = [("--case", &self.case), ("--file", &self.file)];
+        match given.into_iter().find(|(_, value)| value.is_some()) {
+            Some((option, _)) if matches!(self.action, Some(Action::Import(_))) => {
+                Err(Failure::Usage {
+                    message: format!("`{option}` has no effect with `materials import`"),
+                    help: format!("the deck alone is read: remove `{option}`"),
+                })
+            }
+            _ => Ok(()),
         }
     }
 
