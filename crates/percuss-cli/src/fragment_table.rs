@@ -26,7 +26,7 @@ pub fn text(fragments: &[FragmentRecord]) -> String {
         .table();
     let mut text = format!(
         "\n{}\n{}",
-        bold("free fragments, from projectile tail to rear face"),
+        bold("free fragments"),
         blocks(&table)
     );
     // The next block starts with an empty line of its own.

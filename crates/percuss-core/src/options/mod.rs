@@ -43,7 +43,7 @@ pub use forrestal_concrete::ForrestalConcreteOptions;
 pub use lambert_jonas::LambertJonasOptions;
 pub use lanz_odermatt::LanzOdermattOptions;
 pub use number_or_name::{ConstraintFactor, ErosionStrain};
-pub use particles::{PackingKind, ParticlesOptions, Space};
+pub use particles::{Notch, Outline, PackingKind, ParticlesOptions, Space};
 pub use plate_cavity::{CavityShape, PlateCavityOptions};
 pub use plugging::PluggingOptions;
 pub use poncelet::PonceletOptions;

@@ -2,6 +2,7 @@
 
 mod body;
 mod bonds;
+mod cracks;
 mod debris;
 mod energy;
 mod fields;
