@@ -39,6 +39,11 @@ pub fn particles(scenario: &Scenario) -> f64 {
     setup::extent(scenario).particles()
 }
 
+/// Whether the packing of a case has random numbers.
+pub fn has_seeds(scenario: &Scenario) -> bool {
+    setup::packing(scenario) != packing::Packing::Hexagonal
+}
+
 impl Model for Particles {
     fn name(&self) -> &'static str {
         "particles"

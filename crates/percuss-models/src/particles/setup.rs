@@ -162,7 +162,7 @@ pub(super) fn toughness(scenario: &Scenario) -> Option<Toughness> {
     })
 }
 
-fn packing(scenario: &Scenario) -> Packing {
+pub(super) fn packing(scenario: &Scenario) -> Packing {
     let options = &scenario.options.particles;
     let default = match toughness(scenario) {
         Some(_) => PackingKind::Irregular,

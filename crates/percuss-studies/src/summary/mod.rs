@@ -17,6 +17,7 @@ use crate::{
     outcome::{Band, BandQuantity, Outcome, RunResult},
     regime::Regime,
     scenario::Scenario,
+    seeds::SeedStudy,
 };
 
 pub use number::{FieldKind, InStatistics, ResultField, ResultNumber, Role};
@@ -45,6 +46,8 @@ pub struct CaseResults {
     pub results: Vec<ResultRecord>,
     /// Axisymmetric answer; null where none was asked for.
     pub axisymmetric: Option<AxisymmetricAnswer>,
+    /// Means and spread over seeds of the packing; null where they were not asked for.
+    pub seeds: Option<SeedStudy>,
 }
 
 impl ResultRecord {
@@ -125,7 +128,14 @@ impl CaseResults {
                 .map(|result| ResultRecord::new(scenario, result))
                 .collect(),
             axisymmetric: None,
+            seeds: None,
         }
+    }
+
+    /// The results with a study over seeds.
+    #[must_use]
+    pub fn with_seeds(self, seeds: Option<SeedStudy>) -> Self {
+        Self { seeds, ..self }
     }
 
     /// The results with the axisymmetric answer of the case.
