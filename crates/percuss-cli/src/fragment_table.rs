@@ -24,11 +24,7 @@ pub fn text(fragments: &[FragmentRecord]) -> String {
         .numbers("length", "mm", |fragment| number(fragment.length_mm))
         .numbers("diameter", "mm", |fragment| number(fragment.diameter_mm))
         .table();
-    let mut text = format!(
-        "\n{}\n{}",
-        bold("free fragments, from projectile tail to rear face"),
-        blocks(&table)
-    );
+    let mut text = format!("\n{}\n{}", bold("free fragments"), blocks(&table));
     // The next block starts with an empty line of its own.
     text.pop();
     if fragments.len() > MAX_FRAGMENTS {

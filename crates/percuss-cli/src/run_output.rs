@@ -3,7 +3,10 @@
 use std::{slice, sync::Arc};
 
 use percuss::{
-    Scenario, axisymmetric::AxisymmetricAnswer, outcome::RunResult, summary::CaseResults,
+    Scenario,
+    axisymmetric::AxisymmetricAnswer,
+    outcome::RunResult,
+    summary::{CaseResults, SeedStudy},
 };
 
 /// Case with the result of its run.
@@ -15,6 +18,8 @@ pub struct RunOutput {
     pub result: Arc<RunResult>,
     /// Axisymmetric answer; `None` where none is wanted.
     pub axisymmetric: Option<AxisymmetricAnswer>,
+    /// Study over seeds; `None` where none is wanted.
+    pub seeds: Option<SeedStudy>,
 }
 
 impl RunOutput {
@@ -22,5 +27,6 @@ impl RunOutput {
     pub fn results(&self) -> CaseResults {
         CaseResults::new(&self.scenario, slice::from_ref(&self.result))
             .with_axisymmetric(self.axisymmetric.clone())
+            .with_seeds(self.seeds.clone())
     }
 }

@@ -36,6 +36,10 @@ pub struct Sample {
     pub contact_force: f64,
     /// Force on the rear face [N].
     pub back_force: f64,
+    /// Length of a straight crack that takes as many bonds as are broken [m]; 0 from a model without cracks.
+    pub crack_length: f64,
+    /// Largest distance of a broken bond from the tip of its notch, or from the point of impact [m]; 0 from a model without cracks.
+    pub crack_reach: f64,
     /// Energy balance.
     pub energy: EnergyLedger,
     /// Momentum balance.

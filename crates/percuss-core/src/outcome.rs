@@ -165,8 +165,11 @@ pub struct RunResult {
     pub contact_time: Option<f64>,
     /// Time at the end [s].
     pub end_time: Option<f64>,
-    /// Pieces that fly free at the end, from the projectile's tail to the target's back; empty from a model that follows none.
+    /// Pieces that fly free at the end, from the projectile's tail to the target's back, or those of cracks from the largest to the smallest;
+    /// empty from a model that follows none.
     pub fragments: Vec<Fragment>,
+    /// Cracks at the end, from a model whose solids break.
+    pub cracks: Option<Cracks>,
     /// Numbers that this model alone has, in its own order.
     pub details: Vec<Detail>,
     /// Steps and balances of a model that steps through time on a mesh.
@@ -177,6 +180,24 @@ pub struct RunResult {
     pub warnings: Vec<String>,
     /// Time histories, when they were asked for.
     pub history: Option<History>,
+}
+
+/// Cracks of a brittle solid.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Cracks {
+    /// Bonds that are broken, without those of notches.
+    pub broken_bonds: usize,
+    /// Length of a straight crack that takes as many bonds [m].
+    pub length: f64,
+    /// Mean speed of the farthest crack tip from a tenth to nine tenths of its way [m/s].
+    pub tip_speed: Option<f64>,
+    /// Angle between the cracks of the notches and the notches, the mean over them [rad].
+    pub angle: Option<f64>,
+    /// Pieces that no bond holds together, single particles included.
+    pub pieces: usize,
+    /// Mass of the largest piece over that of the body.
+    pub largest_piece: f64,
 }
 
 /// Range of a result where a model's own constants are uncertain.

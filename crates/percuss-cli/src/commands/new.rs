@@ -6,31 +6,43 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use clap::Args;
+use clap::{Args, builder::PossibleValuesParser};
 
 use crate::{failure::Failure, output, response::Response, run_folder::make_folder};
 
 /// The case that `percuss new` writes: valid, with every option at its default or with an example.
 const STARTER: &str = include_str!("new/starter.toml");
 
+/// Cases that `--template` writes, by their names.
+const TEMPLATES: [(&str, &str); 2] = [
+    ("starter", STARTER),
+    ("brittle-plate", include_str!("new/brittle-plate.toml")),
+];
+
 const AFTER_HELP: &str = "\
 Examples:
   percuss new my-case
   percuss new cases/my-case
   percuss new my-case --force
+  percuss new my-plate --template brittle-plate
 
 Exit codes: 0 ok, 2 bad input, 4 the file could not be written";
 
 /// Write a starter case
 ///
 /// Writes NAME/scenario.toml: a valid case, with every option of a case file
-/// explained and commented out, at its default or with an example. An existing
-/// file is not overwritten without --force.
+/// explained and commented out, at its default or with an example. The template
+/// `brittle-plate` is a short case of a glass plate that cracks, for the model
+/// `particles`. An existing file is not overwritten without --force.
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment, after_help = AFTER_HELP)]
 pub struct New {
     /// Folder of the case, made if it does not exist; its name is that of the case
     name: PathBuf,
+    /// Case to write
+    #[arg(long, value_name = "NAME", default_value = "starter")]
+    #[arg(value_parser = PossibleValuesParser::new(TEMPLATES.map(|(name, _)| name)))]
+    template: String,
     /// Overwrite an existing case
     #[arg(long)]
     force: bool,
@@ -44,8 +56,12 @@ impl New {
             shown.insert_str(0, "./");
         }
         output::print(&format!(
-            "wrote {shown}\nnext: percuss run {}\n",
-            quoted(&shown)
+            "wrote {shown}\nnext: percuss run {}{}\n",
+            quoted(&shown),
+            match self.template.as_str() {
+                "brittle-plate" => " --model particles",
+                _ => "",
+            }
         ))
     }
 
@@ -88,7 +104,11 @@ impl New {
         } else {
             options.create_new(true);
         }
-        options.open(path)?.write_all(STARTER.as_bytes())
+        let (_, text) = TEMPLATES
+            .into_iter()
+            .find(|(name, _)| *name == self.template)
+            .unwrap_or(TEMPLATES[0]);
+        options.open(path)?.write_all(text.as_bytes())
     }
 }
 

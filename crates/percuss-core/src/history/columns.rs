@@ -69,6 +69,8 @@ pub static SAMPLE_COLUMNS: &[HistoryColumn<Sample>] = columns! { Sample:
     "projectile_length" MM Number projectile_length, "Current length of the projectile.";
     "contact_force" KN Number contact_force, "Force between projectile and target.";
     "back_force" KN Number back_force, "Force on the rear face.";
+    "crack_length" MM Number crack_length, "Length of a straight crack that takes as many bonds as are broken; 0 from a model without cracks.";
+    "crack_reach" MM Number crack_reach, "Largest distance of a broken bond from the tip of its notch, or from the point of impact; 0 from a model without cracks.";
     "energy_initial" J Number energy.initial, "Kinetic energy at the start.";
     "energy_kinetic_projectile" J Number energy.kinetic_projectile, "Kinetic energy of the projectile.";
     "energy_kinetic_target" J Number energy.kinetic_target, "Kinetic energy of the target.";

@@ -22,6 +22,10 @@ pub struct ParticlesOptions {
     pub spacing: Option<Length>,
     /// Width of the target across the direction of impact [m].
     pub width: Option<Length>,
+    /// Outline of a target in the plane.
+    pub outline: Option<Outline>,
+    /// Straight cuts through the lattice, free of stress at the start; none when not given.
+    pub notches: Option<Vec<Notch>>,
     /// Where the particles stand.
     pub packing: Option<PackingKind>,
     /// How far an irregular packing moves them at most, in spacings.
@@ -38,7 +42,7 @@ pub struct ParticlesOptions {
     pub friction: Option<f64>,
     /// Time step as a part of the largest stable one.
     pub courant: Option<f64>,
-    /// Time at which a run is ended [s]; long enough for the case to end by itself when not given.
+    /// Time at which a run is ended [s].
     pub end_time: Option<Time>,
     /// Time steps after which a run is ended.
     pub max_steps: Option<u64>,
@@ -53,6 +57,34 @@ pub enum Space {
     PlaneStrain,
     /// Thin plates seen from their face: no stress across the plane. Poisson's ratio up to 1/3.
     PlaneStress,
+}
+
+/// Outline of a target in the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outline {
+    /// A rectangle of the thickness and the width.
+    #[default]
+    Plate,
+    /// A disc with the thickness of the target as diameter, struck at its rim.
+    Disc,
+}
+
+/// A straight cut through a lattice: no bond crosses it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Notch {
+    /// One end: distance from the axis, and depth below the struck face [m].
+    pub from: [Length; 2],
+    /// The other end, the tip, from which crack lengths and angles are measured.
+    pub to: [Length; 2],
+}
+
+impl Notch {
+    /// Both ends as distance from the axis and depth [m].
+    pub fn ends(&self) -> [[f64; 2]; 2] {
+        [self.from, self.to].map(|end| end.map(|part| part.si()))
+    }
 }
 
 /// Where particles stand.
@@ -94,12 +126,21 @@ const RESTITUTION: Limits = Limits {
     min: 0.05,
     max: 1.0,
 };
+/// Places of the ends of a notch [m].
+const NOTCH: Limits = Limits {
+    min: -100.0,
+    max: 100.0,
+};
+/// Most notches of a case.
+const MOST_NOTCHES: usize = 64;
 /// Coefficients of friction.
 const FRICTION: Limits = Limits { min: 0.0, max: 2.0 };
 
 defaults! { ParticlesOptions, particles_in_schema {
     /// Plane in which the bodies deform.
     space: Space = Space::PlaneStrain;
+    /// Outline of a target in the plane.
+    outline: Outline = Outline::Plate;
     /// Time step as a part of the largest stable one.
     courant: f64 = 0.5;
     /// Time steps after which a run is ended.
@@ -115,6 +156,8 @@ defaults! { ParticlesOptions, particles_in_schema {
     depending fracture: "`true` where the material of the lattice has a table `fracture`, otherwise `false`";
     depending packing: "`\"irregular\"` where bonds break, otherwise `\"hexagonal\"`";
     depending softening: "that which has both the fracture energy and the tensile strength of the material, and at least 3";
+    depending end_time: "where bonds break, ten times what a longitudinal wave takes across the body and the time in which the projectile \
+        goes its thickness; otherwise long enough for the case to end by itself";
     depending spacing: "a tenth of the projectile's diameter, or of the target's thickness where that is less";
     depending width: "ten diameters of the projectile, or four thicknesses of the target where those are more";
 } }
@@ -150,6 +193,45 @@ impl ParticlesOptions {
         }
         if self.width.is_some() && !target.is_solid() {
             check.fail("width", "a rigid wall has no `width`", "remove the key");
+        }
+        self.check_outline(check, target);
+        self.check_notches(check);
+    }
+
+    fn check_outline(&self, check: &mut Check<'_>, target: &Target) {
+        if self.outline() != Outline::Disc {
+            return;
+        }
+        if !target.is_solid() {
+            let message = "a rigid wall has no `outline`: it is that of a target";
+            check.fail("outline", message, "remove the key");
+        } else if self.width.is_some() {
+            let message = "a disc has no `width`: its diameter is the thickness of the target";
+            check.fail("width", message, "remove the key");
+        }
+    }
+
+    fn check_notches(&self, check: &mut Check<'_>) {
+        let Some(notches) = &self.notches else { return };
+        if notches.len() > MOST_NOTCHES {
+            let message = format!("{} notches are too many", notches.len());
+            check.fail("notches", message, format!("allowed: up to {MOST_NOTCHES}"));
+        }
+        for (i, notch) in notches.iter().enumerate() {
+            let mut check = check.within(&format!("notches.{i}"));
+            for (key, end) in [("from", notch.from), ("to", notch.to)] {
+                for part in end {
+                    check.quantity(key, part, NOTCH);
+                }
+            }
+            if notch.from == notch.to {
+                let message = "both ends of the notch are at one place";
+                check.fail(
+                    "to",
+                    message,
+                    "give the tip another place, or remove the notch",
+                );
+            }
         }
     }
 

@@ -52,6 +52,8 @@ impl ResultUnit {
     pub const J: Self = si(["J", "_j"]);
     /// Momentum.
     pub const N_S: Self = si(["N s", "_n_s"]);
+    /// Angle.
+    pub const DEG: Self = scaled(["°", "_deg"], ["rad", "_rad"], 180.0 / std::f64::consts::PI);
     /// Temperature.
     pub const K: Self = si(["K", "_k"]);
 

@@ -1,5 +1,7 @@
 //! A body of particles on rows of a hexagonal lattice: state, masses and weights of bonds.
 
+use std::ops::Range;
+
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -102,8 +104,8 @@ pub(super) struct Body {
     pub(super) motion: Vec<RowMotion>,
     /// Displacements after the step that is computed.
     pub(super) next: Vec<RowState>,
-    /// Whether the last row cannot move along the direction of impact.
-    pub(super) held: bool,
+    /// Row and places of the particles that cannot move along the direction of impact, if any.
+    pub(super) held: Option<(usize, Range<usize>)>,
     /// Area of all triangles [m2].
     pub(super) area: f64,
     /// How bonds fail, if they do.
@@ -131,6 +133,24 @@ impl Body {
         Self::of_particles(lattice, rows, depth, packing, |row, column| {
             column < columns(row)
         })
+    }
+
+    /// A disc of the diameter of all rows, which touches the struck face.
+    pub(super) fn disc(lattice: Lattice, rows: Rows, packing: Packing) -> Self {
+        let radius = 0.5 * (rows.count as f64 - 1.0) * ROW * lattice.spacing;
+        let middle = 0.5 * (rows.particles as f64 - 1.0);
+        let mut disc = Self::of_particles(lattice, rows, 0.0, packing, |row, column| {
+            let across = (column as f64 + 0.5 * (row % 2) as f64 - middle) * lattice.spacing;
+            let along = row as f64 * ROW * lattice.spacing - radius;
+            let is_inside = across * across + along * along <= radius * radius * (1.0 + 1e-9);
+            is_inside && column < rows.particles - row % 2
+        });
+        // A particle alone at the rim belongs to no triangle: the first row that is there touches.
+        let top = disc
+            .particles()
+            .map(|(row, place)| disc.reference(row, place)[1]);
+        disc.origin[1] = -top.fold(f64::INFINITY, f64::min).min(radius);
+        disc
     }
 
     /// A body of the triangles of which all three particles are there.
@@ -179,7 +199,7 @@ impl Body {
                 rows.count
             ],
             next: Vec::new(),
-            held: false,
+            held: None,
             area: 0.0,
             softening: None,
         };
@@ -291,6 +311,20 @@ impl Body {
         self.softening = Some(softening);
         for state in self.state.iter_mut().chain(&mut self.next) {
             state.damage = Damage::new(self.stride);
+        }
+    }
+
+    /// Holds the last row that has particles, as far as a distance from the axis [m].
+    pub(super) fn hold_rear(&mut self, half_width: f64) {
+        let has_particles = |row: &usize| self.rows[*row].mass.iter().any(|mass| *mass > 0.0);
+        let Some(row) = (0..self.rows.len()).rev().find(has_particles) else {
+            return;
+        };
+        let inside = |place: &usize| self.reference(row, *place)[0].abs() <= half_width;
+        let mut places = (1..self.stride - 1).filter(inside);
+        if let Some(first) = places.next() {
+            let last = places.next_back().unwrap_or(first);
+            self.held = Some((row, first..last + 1));
         }
     }
 

@@ -39,8 +39,8 @@ impl Body {
         let mut sweep = Sweep::new(self, &springs, row);
         sweep.next(self, &springs, row, loads);
         let mut total = sweep.total;
-        if self.is_held(row) {
-            total.z.fill(0.0);
+        if let Some(places) = self.held_places(row) {
+            total.z[places].fill(0.0);
         }
         let (make, motion) = (&self.rows[row], &self.motion[row]);
         let mut sums = BodySums {

@@ -2,6 +2,7 @@
 
 mod body;
 mod bonds;
+mod cracks;
 mod debris;
 mod energy;
 mod fields;
@@ -36,6 +37,11 @@ pub struct Particles;
 /// Number of particles of a case.
 pub fn particles(scenario: &Scenario) -> f64 {
     setup::extent(scenario).particles()
+}
+
+/// Whether the packing of a case has random numbers.
+pub fn has_seeds(scenario: &Scenario) -> bool {
+    setup::packing(scenario) != packing::Packing::Hexagonal
 }
 
 impl Model for Particles {

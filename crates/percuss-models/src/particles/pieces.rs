@@ -1,15 +1,61 @@
 //! What cracks make of a body: damage of its particles, and its pieces.
 
 use super::body::Body;
+use crate::fragments::Fragment;
 
 /// A piece of a body that no bond holds to the rest.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Piece {
     pub(super) particles: usize,
     /// Mass [kg per m].
     pub(super) mass: f64,
     /// Momentum along the direction of impact [N s per m].
     pub(super) momentum: f64,
+    /// Sum of the masses times the depths [kg m per m].
+    moment: f64,
+    /// Smallest and largest depth before the impact [m].
+    pub(super) before: [f64; 2],
+    /// Smallest and largest distance from the axis and depth now [m].
+    now: [[f64; 2]; 2],
+}
+
+impl Piece {
+    const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+    const NONE: Self = Self {
+        particles: 0,
+        mass: 0.0,
+        momentum: 0.0,
+        moment: 0.0,
+        before: Self::NOTHING,
+        now: [Self::NOTHING; 2],
+    };
+
+    fn add(&mut self, body: &Body, (row, place): (usize, usize)) {
+        let mass = body.rows[row].mass[place];
+        let now = body.position(row, place);
+        let widen = |[low, high]: [f64; 2], at: f64| [low.min(at), high.max(at)];
+        self.particles += 1;
+        self.mass += mass;
+        self.momentum += mass * body.motion[row].z[place];
+        self.moment += mass * now[1];
+        self.before = widen(self.before, body.reference(row, place)[1]);
+        self.now = [0, 1].map(|axis| widen(self.now[axis], now[axis]));
+    }
+
+    /// The piece as one of the fragments of a result; its size is that of the centres of its particles and a spacing.
+    pub(super) fn fragment(&self, origin: &str, spacing: f64) -> Fragment {
+        let [width, length] = self.now.map(|[low, high]| high - low + spacing);
+        Fragment {
+            origin: origin.to_owned(),
+            initial_from: self.before[0],
+            initial_to: self.before[1],
+            mass: self.mass,
+            velocity: self.momentum / self.mass,
+            length,
+            diameter: width,
+            position: self.moment / self.mass,
+        }
+    }
 }
 
 impl Body {
@@ -55,12 +101,7 @@ impl Body {
 
     /// Number of bonds that are broken.
     pub(super) fn broken_bonds(&self) -> usize {
-        let bonds = self
-            .particles()
-            .flat_map(|(row, place)| [0, 1, 2].map(|kind| (row, place, kind)));
-        bonds
-            .filter(|&bond| self.weight(bond) > 0.0 && self.is_broken(bond))
-            .count()
+        self.bonds().filter(|&bond| self.is_broken(bond)).count()
     }
 
     /// Pieces that whole bonds hold together, largest first; equal ones in the order of their first particles.
@@ -79,13 +120,9 @@ impl Body {
                 parent[a.max(b)] = a.min(b);
             }
         }
-        let mut pieces = vec![Piece::default(); parent.len()];
+        let mut pieces = vec![Piece::NONE; parent.len()];
         for (row, place) in self.particles() {
-            let piece = &mut pieces[root(&mut parent, index(row, place))];
-            let mass = self.rows[row].mass[place];
-            piece.particles += 1;
-            piece.mass += mass;
-            piece.momentum += mass * self.motion[row].z[place];
+            pieces[root(&mut parent, index(row, place))].add(self, (row, place));
         }
         pieces.retain(|piece| piece.particles > 0);
         pieces.sort_by(|a, b| b.mass.total_cmp(&a.mass));

@@ -46,6 +46,8 @@ pub(super) fn sample(run: &PlaneImpact<'_>, monitor: &RunMonitor) -> Sample {
     sample.energy = run.energy();
     sample.momentum = run.momentum();
     sample.contact_force = run.contact_force();
+    sample.crack_length = run.front.length;
+    sample.crack_reach = run.front.reach;
     match run.rigid {
         Rigid::Wall => {
             sample.tip_velocity = back_velocity;
@@ -110,8 +112,30 @@ pub(super) fn complete(run: &PlaneImpact<'_>, result: &mut RunResult, monitor: &
     if run.rigid != Rigid::Wall {
         result.largest_depth = Some(monitor.largest_depth);
     }
+    if run.body.softening.is_some() {
+        add_cracks(run, result);
+    }
     result.details = details(run);
     result.warnings = warnings(run, result);
+}
+
+/// Adds cracks and pieces.
+fn add_cracks(run: &PlaneImpact<'_>, result: &mut RunResult) {
+    let mut front = run.front.clone();
+    front.follow(&run.body, &run.notches, run.state.time);
+    result.cracks = Some(front.results(&run.body, &run.notches));
+    let origin = match run.rigid {
+        Rigid::Wall => "projectile",
+        Rigid::Projectile(_) => "target",
+    };
+    let pieces = run.body.pieces();
+    if pieces.len() > 1 {
+        let spacing = run.body.lattice.spacing;
+        result.fragments = pieces
+            .iter()
+            .map(|piece| piece.fragment(origin, spacing))
+            .collect();
+    }
 }
 
 fn details(run: &PlaneImpact<'_>) -> Vec<Detail> {
@@ -137,14 +161,10 @@ fn details(run: &PlaneImpact<'_>) -> Vec<Detail> {
     ];
     if let Some(softening) = &body.softening {
         let pieces = body.pieces();
-        let largest = pieces.first().map_or(0.0, |piece| piece.mass);
         let single = pieces.iter().filter(|piece| piece.particles == 1).count();
         details.extend([
             detail("softening of the bonds", "", softening.end),
-            detail("broken bonds", "", body.broken_bonds() as f64),
-            detail("pieces of the lattice", "", pieces.len() as f64),
             detail("pieces of one particle", "", single as f64),
-            detail("largest piece over the lattice", "", largest / body.mass()),
         ]);
     }
     details

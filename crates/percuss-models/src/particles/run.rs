@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::{
     body::Body,
+    cracks::{Front, Notches},
     debris::{ContactLaw, Debris},
     fields, results, setup,
     shape::{Contact, Rigid, contact, stiffness},
@@ -31,6 +32,10 @@ use crate::{
 
 /// Steps between two checks of the balances.
 const INTERVAL: u64 = 50;
+/// Steps between two looks at the cracks.
+const LOOK: u64 = 10;
+/// Ways of a longitudinal wave across a body that breaks, after which its run ends where the case gives no time.
+const WAYS: f64 = 10.0;
 /// Largest stretch of a bond that holds: beyond it no brittle solid is whole.
 const LARGEST_STRETCH: f64 = 0.1;
 /// Round trips of a wave through the lattice, or from its middle to its side, without contact after which the bodies have parted.
@@ -49,6 +54,8 @@ pub(crate) struct PlaneImpact<'a> {
     contact: Contact,
     debris: Debris,
     law: ContactLaw,
+    pub(super) front: Front,
+    pub(super) notches: Notches,
     /// Forces of both, in the order of the rows.
     loads: Vec<Load>,
     initial: (f64, f64),
@@ -101,6 +108,13 @@ impl PlaneImpact<'_> {
         let of_pieces = self.debris.loads(&self.body, &self.law);
         self.loads.extend(of_pieces);
         self.loads.sort_by_key(|load| (load.row, load.place));
+    }
+
+    /// Time in which cracks have run through a body that breaks, and the projectile has gone its thickness at the speed of the impact [s].
+    fn time_of_cracks(&self) -> f64 {
+        let extent = setup::extent(self.scenario);
+        let waves = WAYS * extent.length.max(extent.width) / self.body.lattice.wave_speed;
+        waves + extent.length / self.scenario.impact_velocity.max(1.0)
     }
 
     /// Largest stretch of a bond and largest tension of a particle, now or before.
@@ -172,6 +186,8 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
             contact: Contact::default(),
             debris: Debris::default(),
             law: setup::contact_law(scenario, &body),
+            front: Front::default(),
+            notches: setup::notches(scenario, &body),
             loads: Vec::new(),
             initial: (0.5 * mass * speed * speed, mass * speed),
             body,
@@ -187,7 +203,14 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
 
     fn limits(&self) -> Limits {
         let options = &self.scenario.options.particles;
-        Limits::new(self.scenario, options.end_time, options.max_steps())
+        let limits = Limits::new(self.scenario, options.end_time, options.max_steps());
+        match (options.end_time, self.body.softening) {
+            (None, Some(_)) => Limits {
+                end_time: limits.end_time.min(self.time_of_cracks()),
+                ..limits
+            },
+            _ => limits,
+        }
     }
 
     fn advance(&mut self) -> Result<(), NumericalError> {
@@ -211,6 +234,10 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         }
         if self.state.step.is_multiple_of(INTERVAL) {
             self.survey();
+        }
+        if self.body.softening.is_some() && self.state.step.is_multiple_of(LOOK) {
+            self.front
+                .follow(&self.body, &self.notches, self.state.time);
         }
         Ok(())
     }
@@ -349,7 +376,10 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
             Rigid::Wall => vec![lattice],
             Rigid::Projectile(shape) => {
                 let motion = (self.state.tip, self.state.velocity);
-                let length = self.scenario.projectile.length;
+                // Of a long projectile only what a picture of the lattice has room for.
+                let extent = setup::extent(self.scenario);
+                let room = extent.length.max(extent.width);
+                let length = self.scenario.projectile.length.min(room);
                 vec![
                     Cow::Owned(fields::rigid(&shape, length, self.mass, motion)),
                     lattice,
@@ -367,6 +397,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         archive.item(&mut self.body.state)?;
         archive.item(&mut self.body.motion)?;
         archive.item(&mut self.debris)?;
+        archive.item(&mut self.front)?;
         if archive.is_read() {
             self.find_contact();
         }

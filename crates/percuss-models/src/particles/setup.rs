@@ -2,6 +2,7 @@
 
 use super::{
     body::{Body, Rows},
+    cracks::Notches,
     debris::ContactLaw,
     fracture::{self, LEAST_SOFTENING, Softening, Toughness},
     lattice::{Lattice, ROW, Solid, poissons_ratio_refusal},
@@ -11,7 +12,7 @@ use super::{
 use crate::{
     Refusal, Scenario,
     material::{Material, Strength},
-    options::{PackingKind, ParticlesOptions},
+    options::{Outline, PackingKind, ParticlesOptions},
     problem::RearFaceCondition,
     scenario::{Plate, TargetBody},
 };
@@ -79,6 +80,14 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
         let remedy = "give the material a table `fracture` with `energy` and `tensile_strength`, or remove the option";
         return Some(Refusal::new(reason).with_remedy(remedy));
     }
+    if scenario.options.particles.notches.is_some() && toughness(scenario).is_none() {
+        let reason = "`particles.notches` needs bonds that break: the faces of a notch meet as those of a crack";
+        let remedy = format!(
+            "give the material `{id}` a table `fracture` with `energy` and `tensile_strength`, remove `particles.fracture = false`, or \
+             remove the notches"
+        );
+        return Some(Refusal::new(reason).with_remedy(remedy));
+    }
     let space = scenario.options.particles.space();
     poissons_ratio_refusal(space, material.poissons_ratio, id)
 }
@@ -93,7 +102,12 @@ pub(super) fn extent(scenario: &Scenario) -> Extent {
     };
     match scenario.target_thickness() {
         Some(thickness) => {
-            let default = (WIDTH_IN_DIAMETERS * rod.diameter).max(WIDTH_IN_THICKNESSES * thickness);
+            let default = match options.outline() {
+                Outline::Disc => thickness,
+                Outline::Plate => {
+                    (WIDTH_IN_DIAMETERS * rod.diameter).max(WIDTH_IN_THICKNESSES * thickness)
+                }
+            };
             Extent {
                 length: thickness,
                 width: options.width.map_or(default, |width| width.si()),
@@ -148,7 +162,7 @@ pub(super) fn toughness(scenario: &Scenario) -> Option<Toughness> {
     })
 }
 
-fn packing(scenario: &Scenario) -> Packing {
+pub(super) fn packing(scenario: &Scenario) -> Packing {
     let options = &scenario.options.particles;
     let default = match toughness(scenario) {
         Some(_) => PackingKind::Irregular,
@@ -204,6 +218,22 @@ pub(super) fn contact_law(scenario: &Scenario, body: &Body) -> ContactLaw {
     )
 }
 
+/// Whether the target is a disc.
+pub(super) fn is_disc(scenario: &Scenario) -> bool {
+    layer(scenario).is_some() && scenario.options.particles.outline() == Outline::Disc
+}
+
+/// Ends of the notches of a case [m].
+fn notch_ends(scenario: &Scenario) -> Vec<[[f64; 2]; 2]> {
+    let notches = scenario.options.particles.notches.iter().flatten();
+    notches.map(|notch| notch.ends()).collect()
+}
+
+/// The notches of a body that is built.
+pub(super) fn notches(scenario: &Scenario, body: &Body) -> Notches {
+    Notches::of(body, notch_ends(scenario))
+}
+
 /// The lattice at the moment of impact, and the rigid body that it meets.
 pub(super) fn build(scenario: &Scenario) -> (Body, Rigid) {
     let extent = extent(scenario);
@@ -216,7 +246,10 @@ pub(super) fn build(scenario: &Scenario) -> (Body, Rigid) {
         count: extent.layers() as usize + 1,
         particles: extent.columns() as usize,
     };
-    let mut body = Body::strip(lattice, rows, extent.start, packing);
+    let mut body = match is_disc(scenario) {
+        true => Body::disc(lattice, rows, packing),
+        false => Body::strip(lattice, rows, extent.start, packing),
+    };
     if let (Some(toughness), Some(softenings)) =
         (toughness(scenario), softenings(scenario, &lattice))
     {
@@ -228,11 +261,20 @@ pub(super) fn build(scenario: &Scenario) -> (Body, Rigid) {
             irregular,
         ));
     }
+    for ends in notch_ends(scenario) {
+        body.cut(ends);
+    }
     if layer(scenario).is_none() {
         body.launch(scenario.impact_velocity);
         return (body, Rigid::Wall);
     }
-    body.held = scenario.rear_face() == Some(RearFaceCondition::Fixed);
+    if scenario.rear_face() == Some(RearFaceCondition::Fixed) {
+        // A disc stands on a support as wide as the projectile.
+        body.hold_rear(match scenario.options.particles.outline() {
+            Outline::Plate => f64::INFINITY,
+            Outline::Disc => 0.5 * scenario.projectile.diameter,
+        });
+    }
     let shape = Shape {
         nose: scenario.projectile.nose,
         radius: 0.5 * scenario.projectile.diameter,

@@ -1,5 +1,7 @@
 //! Time step of a body: forces of the rows in order, leapfrog of every particle.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::{
@@ -85,9 +87,10 @@ impl pulp::NullaryFnOnce for Slice<'_> {
             let row = first + index;
             forces.next(body, &springs, row, loads);
             let total = &mut forces.total;
-            if body.is_held(row) {
-                support += step * total.z.iter().sum::<f64>();
-                total.z.fill(0.0);
+            if let Some(places) = body.held_places(row) {
+                let held = &mut total.z[places];
+                support += step * held.iter().sum::<f64>();
+                held.fill(0.0);
             }
             advance(
                 &body.rows[row],
@@ -156,9 +159,10 @@ impl Body {
         }
     }
 
-    /// Whether a row cannot move along the direction of impact.
-    pub(super) fn is_held(&self, row: usize) -> bool {
-        self.held && row + 1 == self.rows.len()
+    /// Places of a row that cannot move along the direction of impact, if there are any.
+    pub(super) fn held_places(&self, row: usize) -> Option<Range<usize>> {
+        let (held, places) = self.held.as_ref()?;
+        (*held == row).then(|| places.clone())
     }
 
     /// Forces of the bonds that start in a row.

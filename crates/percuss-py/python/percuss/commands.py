@@ -31,6 +31,7 @@ def run(
     frames: int | None = None,
     checkpoint: float | str | None = None,
     resume: bool = False,
+    seeds: int | None = None,
     progress: Progress | bool | None = None,
     projectile_law: StrengthLaw | None = None,
     target_law: StrengthLaw | None = None,
@@ -70,6 +71,9 @@ def run(
         Ctrl-C leaves one as well.
     resume : bool
         Whether to continue from the checkpoint in ``out``; without one there, the run starts at the beginning.
+    seeds : int, optional
+        Packings of model ``particles`` to run, 2 to 1000: the seed of the case and the next ones. ``result.seeds`` then has mean, standard
+        deviation and range of every result number.
     progress : callable or bool, optional
         Called with the progress, 0 to 1, and a short text; ``True`` and ``False`` show a bar or none. When not given, a bar of tqdm
         is shown after a second, in a notebook or terminal with tqdm.
@@ -110,7 +114,7 @@ def run(
         raise UsageError(f"`reference` has no effect with model `{model}`: leave one of both out, or give model `chain`")
     if reference is not None and any(law is not None for law in laws):
         raise UsageError("`reference` needs laws of the library: leave it out, or add the law to the library")
-    written: dict[str, Any] = {"field": field, "fields": fields, "animation": animation, "frames": frames, "resume": resume}
+    written: dict[str, Any] = {"field": field, "fields": fields, "animation": animation, "frames": frames, "resume": resume, "seeds": seeds}
     if out is not None or checkpoint is not None or any(value not in (None, False) for value in written.values()):
         if any(law is not None for law in laws):
             raise UsageError("files can be written only for runs with laws of the library: leave out `out`, or add the law to the library")

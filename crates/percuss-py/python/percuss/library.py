@@ -295,13 +295,15 @@ def schema() -> dict[str, Any]:
     return found
 
 
-def new(name: Path, *, force: bool = False) -> FilePath:
+def new(name: Path, *, template: str | None = None, force: bool = False) -> FilePath:
     """Writes a starter case: a valid case with every option of a case file explained and commented out.
 
     Parameters
     ----------
     name : path
         Folder of the case, made if it does not exist; its name is the case's.
+    template : str, optional
+        ``"starter"`` or ``"brittle-plate"``, a glass plate for the model ``particles``; the starter case when not given.
     force : bool
         Whether to overwrite a case that exists.
 
@@ -322,5 +324,5 @@ def new(name: Path, *, force: bool = False) -> FilePath:
     >>> percuss.load(file).name
     'my-case'
     """
-    (file,) = execute("new", name, force=force).files()
+    (file,) = execute("new", name, template=template, force=force).files()
     return FilePath(file)

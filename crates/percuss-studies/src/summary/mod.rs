@@ -2,6 +2,7 @@
 
 mod number;
 mod record;
+mod seeds;
 #[cfg(test)]
 mod tests;
 
@@ -21,6 +22,7 @@ use crate::{
 
 pub use number::{FieldKind, InStatistics, ResultField, ResultNumber, Role};
 pub use record::{RESULT_FIELDS, ResultRecord};
+pub use seeds::{SeedNumber, SeedStudy};
 
 /// The numbers of a result in the order of JSON.
 pub fn result_numbers() -> impl Iterator<Item = &'static ResultNumber> + Clone {
@@ -45,6 +47,8 @@ pub struct CaseResults {
     pub results: Vec<ResultRecord>,
     /// Axisymmetric answer; null where none was asked for.
     pub axisymmetric: Option<AxisymmetricAnswer>,
+    /// Means and spread over seeds of the packing; null where they were not asked for.
+    pub seeds: Option<SeedStudy>,
 }
 
 impl ResultRecord {
@@ -125,7 +129,14 @@ impl CaseResults {
                 .map(|result| ResultRecord::new(scenario, result))
                 .collect(),
             axisymmetric: None,
+            seeds: None,
         }
+    }
+
+    /// The results with a study over seeds.
+    #[must_use]
+    pub fn with_seeds(self, seeds: Option<SeedStudy>) -> Self {
+        Self { seeds, ..self }
     }
 
     /// The results with the axisymmetric answer of the case.

@@ -161,6 +161,30 @@ result_record! {
         contact_time_us: Option<f64>
             = number("contact time", Unit::US, Result), |_, run| run?.contact_time;
 
+        /// Length of a straight crack that takes as many bonds as are broken.
+        crack_length_mm: Option<f64>
+            = number("length of the cracks", Unit::MM, Result), |_, run| Some(run?.cracks?.length);
+
+        /// Mean speed of the farthest crack tip from a tenth to nine tenths of its way.
+        crack_speed_m_s: Option<f64>
+            = number("speed of the crack tip", Unit::M_S, Result), |_, run| run?.cracks?.tip_speed;
+
+        /// Angle between the cracks that start at notches and the notches, the mean over them.
+        crack_angle_deg: Option<f64>
+            = number("angle of the cracks to the notches", Unit::DEG, Result), |_, run| run?.cracks?.angle;
+
+        /// Bonds between particles that are broken, without those of notches.
+        broken_bonds: Option<usize>
+            = number("broken bonds", Unit::NONE, Detail), |_, run| Some(run?.cracks?.broken_bonds);
+
+        /// Pieces of a body that no bond holds together, single particles included.
+        pieces: Option<usize>
+            = number("pieces", Unit::NONE, Result), |_, run| Some(run?.cracks?.pieces);
+
+        /// Mass of the largest piece over that of the body.
+        largest_piece: Option<f64>
+            = number("largest piece over the body", Unit::NONE, Result), |_, run| Some(run?.cracks?.largest_piece);
+
         /// Time at the end of the run.
         end_time_us: Option<f64>
             = number("time at the end", Unit::US, Detail), |_, run| run?.end_time;
@@ -213,7 +237,7 @@ result_record! {
         momentum_residual: Option<f64>
             = number("momentum residual", Unit::NONE, Detail), |_, run| Some(numerics(run)?.momentum_residual);
 
-        /// Fragments that fly free at the end, from the projectile's tail to the target's rear face.
+        /// Fragments that fly free at the end, from the projectile's tail to the target's rear face; of `particles` from the largest to the smallest.
         fragments: Vec<FragmentRecord>;
         /// Numbers that this model alone has.
         details: Vec<ModelDetail>;

@@ -3,6 +3,7 @@
 mod axisymmetric;
 mod checkpoints;
 mod other_models;
+mod seeds;
 mod task;
 
 use std::{path::PathBuf, sync::Arc, sync::atomic::AtomicBool, time::Duration};
@@ -71,6 +72,10 @@ The two-dimensional model `axi` also writes the shapes of crater and projectile
 of one of them, field.png. With --animation it writes animation.gif and its
 pictures (frames/).
 
+With --seeds N the model `particles` runs N packings: the seed of the case and the
+next ones. The table and --json (`seeds`) then also have mean, standard deviation
+and range of every result number. Files and the first table are of the first seed.
+
 After one second a progress bar appears, if standard error is a terminal.";
 
 const AFTER_HELP: &str = "\
@@ -84,6 +89,7 @@ Examples:
   percuss run my-case/scenario.toml --out results --fields
   percuss run my-case/scenario.toml --model axi --out results --resume
   percuss run my-case/scenario.toml --model axi --out results --animation
+  percuss run my-case/scenario.toml --model particles --seeds 5
 
 Exit codes: 0 ok, 2 bad input or a model that does not apply, 3 numerical
 failure, 4 a file could not be read or written, 130 stopped by the user";
@@ -109,6 +115,9 @@ pub struct Run {
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]
     json: bool,
+    /// Also run the next packings of particles, N in all, and give means and spread over them
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(2..=1000))]
+    seeds: Option<u16>,
     /// Write result, histories and figures to a folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -263,7 +272,11 @@ impl Run {
             true => String::new(),
             false => self.first_text(run_output, false)?,
         };
-        files.print_under(first + &axisymmetric_text(run_output, first_is_printed))
+        let of_seeds = run_output
+            .seeds
+            .as_ref()
+            .map_or_else(String::new, seeds::text);
+        files.print_under(first + &axisymmetric_text(run_output, first_is_printed) + &of_seeds)
     }
 
     /// List of the written files.

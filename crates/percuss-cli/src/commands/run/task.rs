@@ -19,6 +19,7 @@ use percuss_report::{FieldQuantity, FieldSeries, FinalField};
 use super::{
     Run, axisymmetric,
     checkpoints::{self, CheckpointWriter},
+    seeds,
 };
 use crate::{
     failure::Failure,
@@ -43,6 +44,7 @@ pub(super) struct Task<'a> {
     fields: Option<Fields<'a>>,
     /// Final fields of the axisymmetric answer.
     axisymmetric: Option<FinalField>,
+    stop: &'a AtomicBool,
 }
 
 /// Fields and checkpoints of a run in its folder.
@@ -70,6 +72,7 @@ impl<'a> Task<'a> {
         let chosen = model::choose(options.model.as_deref(), &scenario)?;
         let model = chosen.model;
         check_use(options, model)?;
+        check_seeds(options, model, &scenario)?;
         let start = start(options, model, &scenario, say)?;
         // A model that does not apply makes no folder.
         let out = options.out.as_deref();
@@ -96,6 +99,7 @@ impl<'a> Task<'a> {
             folder,
             fields,
             axisymmetric: None,
+            stop,
         })
     }
 
@@ -118,9 +122,10 @@ impl<'a> Task<'a> {
     /// Executes the run. A run with checkpoints is stopped by its checkpoint writer alone.
     pub fn compute(&mut self, on_progress: ProgressCallback<'_>) -> Result<RunOutput, Failure> {
         let by_checkpoint = self.fields.is_some();
+        let runs = f64::from(self.options.seeds.unwrap_or(1));
         let mut report = |now: model::Progress| {
             let words = format!("{:.1} us, depth {:.3} mm", now.time * 1e6, now.depth * 1e3);
-            match on_progress(now.fraction, &words) {
+            match on_progress(now.fraction / runs, &words) {
                 ControlFlow::Break(()) if !by_checkpoint => ControlFlow::Break(()),
                 _ => ControlFlow::Continue(()),
             }
@@ -136,10 +141,15 @@ impl<'a> Task<'a> {
                 self.chosen.run(&self.scenario, &mut control)?
             }
         };
+        let (model, scenario) = (self.chosen.model, &self.scenario);
+        let of_seeds =
+            |count| seeds::study(model, scenario, &result, count, self.stop, on_progress);
+        let seeds = self.options.seeds.map(of_seeds).transpose()?;
         Ok(RunOutput {
             scenario: Arc::clone(&self.scenario),
             result: Arc::new(result),
             axisymmetric: None,
+            seeds,
         })
     }
 
@@ -328,6 +338,22 @@ fn check_use(options: &Run, model: &dyn Model) -> Result<(), Failure> {
         });
     }
     Ok(())
+}
+
+/// Refuses seeds of a model or a packing without any.
+fn check_seeds(options: &Run, model: &dyn Model, scenario: &Scenario) -> Result<(), Failure> {
+    let why = match model.name() {
+        _ if options.seeds.is_none() => return Ok(()),
+        "particles" if percuss::particles::has_seeds(scenario) => return Ok(()),
+        "particles" => {
+            "the packing of this case is \"hexagonal\", without random numbers".to_owned()
+        }
+        name => format!("model `{name}` has no packing of particles"),
+    };
+    Err(Failure::Usage {
+        message: format!("`--seeds` has no effect: {why}"),
+        help: "remove `--seeds`, or give `--model particles` and a case whose packing is \"irregular\"".to_owned(),
+    })
 }
 
 /// Checkpoint to continue from, if there is one and --resume is given.

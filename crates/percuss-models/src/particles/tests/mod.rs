@@ -1,6 +1,7 @@
 //! Exact tests of the lattice and of its contact with rigid bodies.
 
 mod contact;
+mod cracks;
 mod debris;
 mod fracture;
 mod lattice;

@@ -134,7 +134,7 @@ fn shaken(threads: usize) -> Vec<u64> {
         .unwrap();
     pool.install(|| {
         let mut body = strip(Space::PlaneStrain, 0.2, 61, 120);
-        body.held = true;
+        body.hold_rear(f64::INFINITY);
         let mut seed = 1_u64;
         let mut random = move || {
             seed = seed

@@ -1,0 +1,79 @@
+//! Runs of a case with several packings of particles.
+
+use std::{
+    ops::ControlFlow,
+    sync::atomic::{AtomicBool, Ordering},
+};
+
+use percuss::{
+    Scenario,
+    model::{self, Control, Model},
+    outcome::RunResult,
+    seeds,
+    summary::SeedStudy,
+    units::significant,
+};
+use percuss_report::table::Table;
+
+use crate::{failure::Failure, response::ProgressCallback, table::blocks, terminal::bold};
+
+/// Runs the packings after the first one, whose result is there.
+pub(super) fn study(
+    model: &dyn Model,
+    scenario: &Scenario,
+    first: &RunResult,
+    count: u16,
+    stop: &AtomicBool,
+    on_progress: ProgressCallback<'_>,
+) -> Result<SeedStudy, Failure> {
+    let start = scenario.options.particles.seed();
+    let mut others = Vec::new();
+    for number in 1..u64::from(count) {
+        let mut report = |now: model::Progress| {
+            let part = (number as f64 + now.fraction) / f64::from(count);
+            let words = format!(
+                "packing {} of {count}, {:.1} us",
+                number + 1,
+                now.time * 1e6
+            );
+            match on_progress(part, &words) {
+                ControlFlow::Continue(()) if !stop.load(Ordering::Relaxed) => {
+                    ControlFlow::Continue(())
+                }
+                _ => ControlFlow::Break(()),
+            }
+        };
+        let mut control = Control {
+            progress: Some(&mut report),
+            ..Control::default()
+        };
+        let seed = start.saturating_add(number);
+        others.extend(seeds::results(model, scenario, [seed], &mut control)?);
+    }
+    let results: Vec<&RunResult> = std::iter::once(first).chain(&others).collect();
+    Ok(SeedStudy::new(scenario, start, &results))
+}
+
+/// Table of a study.
+pub(super) fn text(study: &SeedStudy) -> String {
+    let number = |value: f64| significant(value, 4);
+    // What is the same for every packing is in the first table.
+    let varied = study
+        .numbers
+        .iter()
+        .filter(|of| of.standard_deviation > 0.0);
+    let varied: Vec<_> = varied.collect();
+    let table = Table::of(&varied)
+        .words("result", |number| number.label.to_owned())
+        .words("unit", |number| number.unit.to_owned())
+        .numbers("mean", "", |of| number(of.mean))
+        .numbers("deviation", "", |of| number(of.standard_deviation))
+        .numbers("smallest", "", |of| number(of.smallest))
+        .numbers("largest", "", |of| number(of.largest))
+        .table();
+    let heading = format!(
+        "{} packings, standard deviation of one run",
+        study.seeds.len()
+    );
+    format!("\n{}\n{}", bold(heading), blocks(&table))
+}

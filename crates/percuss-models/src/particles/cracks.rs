@@ -1,0 +1,270 @@
+//! Cracks: notches, how far and how fast cracks run, and the results of it.
+
+use serde::{Deserialize, Serialize};
+
+use super::body::Body;
+use crate::outcome::Cracks;
+
+/// First row, place and kind of a bond.
+type Bond = (usize, usize, usize);
+
+/// Distance from the tip of a notch within which its cracks start, in spacings.
+const START: f64 = 2.0;
+/// Part of an end of a notch by which it also cuts a bond there: rounding does not decide about a bond on the face.
+const ROUNDING: f64 = 1e-9;
+/// Parts of the way of a crack between which its mean speed is taken.
+const WAY: [f64; 2] = [0.1, 0.9];
+/// Entries of the path of a crack at most; then every second one is left out.
+const MOST: usize = 4096;
+
+/// What is followed of the cracks of a run.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Front {
+    /// Bonds that are broken, without those of notches.
+    pub(super) broken: usize,
+    /// Length of a straight crack that takes as many [m].
+    pub(super) length: f64,
+    /// Largest distance of a broken bond of a crack from where it starts [m].
+    pub(super) reach: f64,
+    /// Times at which the distance grew, and the distance then [s, m].
+    path: Vec<[f64; 2]>,
+}
+
+/// The notches of a run.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Notches {
+    /// Ends of each: where it starts, and its tip [m].
+    ends: Vec<[[f64; 2]; 2]>,
+    /// Bonds that they cut, in order.
+    cut: Vec<Bond>,
+    /// Particles from which the cracks of each notch start.
+    starts: Vec<Vec<(usize, usize)>>,
+}
+
+impl Notches {
+    /// The notches of a body that they are cut into.
+    pub(super) fn of(body: &Body, ends: Vec<[[f64; 2]; 2]>) -> Self {
+        let cut: Vec<Bond> = body.bonds().filter(|&bond| body.is_broken(bond)).collect();
+        let near = START * body.lattice.spacing;
+        let of_tip = |tip: [f64; 2]| {
+            let ends = cut.iter().flat_map(|&bond| body.ends(bond));
+            ends.filter(|&(row, place)| distance(body.reference(row, place), tip) < near)
+                .collect()
+        };
+        Self {
+            starts: ends.iter().map(|[_, tip]| of_tip(*tip)).collect(),
+            ends,
+            cut,
+        }
+    }
+
+    fn is_cut(&self, bond: Bond) -> bool {
+        self.cut.binary_search(&bond).is_ok()
+    }
+
+    /// Broken bond of the crack from the tip of each notch that is farthest from the tip, as the way to it [m]; none where no crack has started.
+    fn farthest(&self, body: &Body) -> Vec<Option<[f64; 2]>> {
+        let of = |([_, tip], starts): (&[[f64; 2]; 2], &Vec<(usize, usize)>)| {
+            let mut farthest: Option<[f64; 2]> = None;
+            body.follow(starts, |bond| {
+                if self.is_cut(bond) {
+                    return false;
+                }
+                let middle = body.middle(bond);
+                let way = [middle[0] - tip[0], middle[1] - tip[1]];
+                let is_farther = farthest.is_none_or(|old| norm(way) > norm(old));
+                farthest = if is_farther { Some(way) } else { farthest };
+                true
+            });
+            farthest
+        };
+        self.ends.iter().zip(&self.starts).map(of).collect()
+    }
+
+    /// Angle between the notches and the ways to the ends of their cracks, the mean over them [rad].
+    fn angle(&self, body: &Body) -> Option<f64> {
+        let ways = self.farthest(body);
+        let angles = ways
+            .iter()
+            .zip(&self.ends)
+            .filter_map(|(way, [from, tip])| {
+                let ([a, b], [c, d]) = ((*way)?, [tip[0] - from[0], tip[1] - from[1]]);
+                Some((a * d - b * c).abs().atan2(a * c + b * d))
+            });
+        let angles: Vec<f64> = angles.collect();
+        (!angles.is_empty()).then(|| angles.iter().sum::<f64>() / angles.len() as f64)
+    }
+}
+
+impl Front {
+    /// Follows the cracks at a time [s].
+    pub(super) fn follow(&mut self, body: &Body, notches: &Notches, time: f64) {
+        let is_new = |bond: &Bond| body.is_broken(*bond) && !notches.is_cut(*bond);
+        let broken: Vec<Bond> = body.bonds().filter(is_new).collect();
+        if broken.len() == self.broken {
+            return;
+        }
+        self.broken = broken.len();
+        self.length = broken.iter().map(|&bond| body.crack_of(bond)).sum();
+        let reach = match notches.ends.is_empty() {
+            true => broken
+                .iter()
+                .map(|&bond| norm(body.middle(bond)))
+                .fold(0.0, f64::max),
+            false => notches
+                .farthest(body)
+                .into_iter()
+                .flatten()
+                .map(norm)
+                .fold(0.0, f64::max),
+        };
+        if reach > self.reach {
+            self.reach = reach;
+            self.path.push([time, reach]);
+            if self.path.len() > MOST {
+                let mut index = 0;
+                self.path.retain(|_| {
+                    index += 1;
+                    index % 2 == 1
+                });
+            }
+        }
+    }
+
+    /// Mean speed of the farthest tip over most of its way [m/s].
+    fn tip_speed(&self) -> Option<f64> {
+        let [first, last] = WAY.map(|part| {
+            let reached = self.path.iter().find(|[_, way]| *way >= part * self.reach);
+            reached.copied()
+        });
+        let ([from, start], [to, end]) = (first?, last?);
+        (to > from).then(|| (end - start) / (to - from))
+    }
+
+    /// Cracks at the end of a run.
+    pub(super) fn results(&self, body: &Body, notches: &Notches) -> Cracks {
+        let pieces = body.pieces();
+        let mut cracks = Cracks::default();
+        cracks.broken_bonds = self.broken;
+        cracks.length = self.length;
+        // Without a notch bonds break in many places at once, which is no way of one tip.
+        cracks.tip_speed = self.tip_speed().filter(|_| !notches.ends.is_empty());
+        cracks.angle = notches.angle(body);
+        cracks.pieces = pieces.len();
+        cracks.largest_piece = pieces.first().map_or(0.0, |piece| piece.mass) / body.mass();
+        cracks
+    }
+}
+
+impl Body {
+    /// All bonds, in order.
+    pub(super) fn bonds(&self) -> impl Iterator<Item = Bond> + '_ {
+        self.particles()
+            .flat_map(|(row, place)| [0, 1, 2].map(|kind| (row, place, kind)))
+            .filter(|&bond| self.weight(bond) > 0.0)
+    }
+
+    /// Both particles of a bond.
+    pub(super) fn ends(&self, (row, place, kind): Bond) -> [(usize, usize); 2] {
+        [(row, place), self.other_end(row, place, kind)]
+    }
+
+    /// Middle of a bond before the impact [m].
+    fn middle(&self, bond: Bond) -> [f64; 2] {
+        let [a, b] = self
+            .ends(bond)
+            .map(|(row, place)| self.reference(row, place));
+        [0, 1].map(|axis| 0.5 * (a[axis] + b[axis]))
+    }
+
+    /// Length of the crack of a straight cut that a bond stands for [m]: its share of the energy of it.
+    fn crack_of(&self, bond: Bond) -> f64 {
+        let rest = self.rest(bond.0, bond.1, bond.2);
+        0.5 * rest.weight * rest.length
+    }
+
+    /// Breaks the bonds that a straight cut crosses.
+    pub(super) fn cut(&mut self, [from, to]: [[f64; 2]; 2]) {
+        let Some(end) = self.softening.map(|law| law.end) else {
+            return;
+        };
+        let crossed = |bond: &Bond| {
+            let [a, b] = self
+                .ends(*bond)
+                .map(|(row, place)| self.reference(row, place));
+            crosses([from, to], [a, b])
+        };
+        let bonds: Vec<Bond> = self.bonds().filter(crossed).collect();
+        for (row, place, kind) in bonds {
+            self.state[row].damage.worst[kind][place] = end;
+        }
+    }
+
+    /// Goes along broken bonds from particles, as long as `goes_on` takes a bond.
+    fn follow(&self, starts: &[(usize, usize)], mut goes_on: impl FnMut(Bond) -> bool) {
+        let mut seen = vec![false; self.rows.len() * self.stride];
+        let mut open: Vec<(usize, usize)> = starts.to_vec();
+        for &(row, place) in starts {
+            seen[row * self.stride + place] = true;
+        }
+        while let Some((row, place)) = open.pop() {
+            for bond in self.bonds_of(row, place).into_iter().flatten() {
+                if self.weight(bond) == 0.0 || !self.is_broken(bond) || !goes_on(bond) {
+                    continue;
+                }
+                for (row, place) in self.ends(bond) {
+                    let is_seen = &mut seen[row * self.stride + place];
+                    if !std::mem::replace(is_seen, true) {
+                        open.push((row, place));
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn norm([x, z]: [f64; 2]) -> f64 {
+    (x * x + z * z).sqrt()
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    norm([a[0] - b[0], a[1] - b[1]])
+}
+
+/// Whether a cut crosses a bond; a particle on the cut is on one side of it.
+fn crosses([from, to]: [[f64; 2]; 2], [a, b]: [[f64; 2]; 2]) -> bool {
+    let way = [to[0] - from[0], to[1] - from[1]];
+    let side = |[x, z]: [f64; 2]| way[0] * (z - from[1]) - way[1] * (x - from[0]);
+    let (first, second) = (side(a), side(b));
+    if (first >= 0.0) == (second >= 0.0) {
+        return false;
+    }
+    // Where the bond meets the line of the cut, as a part of the cut.
+    let part = first / (first - second);
+    let at = [0, 1].map(|axis| a[axis] + part * (b[axis] - a[axis]) - from[axis]);
+    let along = (at[0] * way[0] + at[1] * way[1]) / (way[0] * way[0] + way[1] * way[1]);
+    (-ROUNDING..=1.0 + ROUNDING).contains(&along)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A tip that runs at one speed has that speed, wherever it started and however long it waited.
+    #[test]
+    fn a_steady_tip_has_its_speed() {
+        let speed = 1500.0;
+        let path = (0..=40).map(|i| {
+            let way = 1e-3 * f64::from(i);
+            [2e-6 + way / speed, way]
+        });
+        let front = Front {
+            reach: 0.04,
+            path: path.collect(),
+            ..Front::default()
+        };
+        let found = front.tip_speed().unwrap();
+        assert!((found / speed - 1.0).abs() < 1e-12, "{found}");
+        assert_eq!(Front::default().tip_speed(), None);
+    }
+}

@@ -1,0 +1,105 @@
+//! Notches, and what is followed of cracks.
+
+use std::f64::consts::PI;
+
+use super::{solid, strip};
+use crate::{
+    options::Space,
+    particles::{
+        body::{Body, Rows},
+        cracks::{Front, Notches},
+        fracture::Softening,
+        lattice::ROW,
+        packing::Packing,
+    },
+};
+
+const SPACE: Space = Space::PlaneStress;
+const RATIO: f64 = 0.22;
+/// Spacing of [`strip`] [m].
+const SPACING: f64 = 1e-3;
+
+/// A strip of 31 mm by 8 rows whose bonds can break.
+fn brittle() -> Body {
+    let mut body = strip(SPACE, RATIO, 9, 31);
+    soften(&mut body);
+    body
+}
+
+fn soften(body: &mut Body) {
+    let law = Softening::new(&body.lattice, 20.0, 3.0, false);
+    body.soften(law);
+}
+
+/// A cut from face to face leaves two pieces, a shorter one leaves the body whole; a notch is no crack.
+#[test]
+fn a_notch_cuts_the_bonds_that_it_crosses_and_no_others() {
+    let depth = 8.0 * ROW * SPACING;
+    let place = 4.25 * SPACING;
+    for (end, pieces) in [(2.0 * depth, 2), (0.5 * depth, 1)] {
+        let mut body = brittle();
+        let ends = [[place, -depth], [place, end]];
+        body.cut(ends);
+        let notches = Notches::of(&body, vec![ends]);
+        let mut front = Front::default();
+        front.follow(&body, &notches, 1e-6);
+        let cracks = front.results(&body, &notches);
+        assert_eq!((cracks.broken_bonds, cracks.pieces), (0, pieces));
+        assert_eq!(
+            (cracks.length, cracks.tip_speed, cracks.angle),
+            (0.0, None, None)
+        );
+        for bond in body.bonds() {
+            let [a, b] = body
+                .ends(bond)
+                .map(|(row, place)| body.reference(row, place));
+            let at = (place - a[0]) / (b[0] - a[0]);
+            let crosses = (0.0..1.0).contains(&at) && a[1] + at * (b[1] - a[1]) <= end;
+            assert_eq!(body.is_broken(bond), crosses, "{a:?} {b:?}");
+        }
+    }
+}
+
+/// A straight crack from the tip of a notch has its length, within a spacing, and goes straight on.
+#[test]
+fn a_straight_crack_has_its_length_and_angle() {
+    let mut body = brittle();
+    let depth = 8.0 * ROW * SPACING;
+    let place = 4.25 * SPACING;
+    let notch = [[place, -SPACING], [place, 0.4 * depth]];
+    body.cut(notch);
+    let notches = Notches::of(&body, vec![notch]);
+    body.cut([notch[1], [place, 2.0 * depth]]);
+    let mut front = Front::default();
+    front.follow(&body, &notches, 1e-6);
+    let cracks = front.results(&body, &notches);
+    let length = 0.6 * depth;
+    // Bonds on the faces of a strip have half the weight: a cut takes as many as a straight crack, within the lattice's factor.
+    assert!((front.reach - length).abs() < SPACING, "{}", front.reach);
+    assert!(
+        (0.7..1.5).contains(&(cracks.length / length)),
+        "{}",
+        cracks.length / length
+    );
+    assert!(cracks.angle.unwrap() < 0.15, "{:?}", cracks.angle);
+    assert_eq!(cracks.pieces, 2);
+}
+
+/// A disc has the mass of its circle, less the half layer at its rim that belongs to no whole triangle.
+#[test]
+fn a_disc_has_the_mass_of_its_circle() {
+    let lattice = solid(RATIO).lattice(SPACE, SPACING);
+    for layers in [40.0_f64, 80.0] {
+        let diameter = layers * ROW * SPACING;
+        let columns = (diameter / SPACING + 1.5).round() as usize;
+        let rows = Rows {
+            count: layers as usize + 1,
+            particles: columns,
+        };
+        let body = Body::disc(lattice, rows, Packing::Hexagonal);
+        let exact = 0.25 * PI * diameter * diameter * 2500.0;
+        let error = body.mass() / exact - 1.0;
+        println!("disc of {layers} layers: mass {:+.2} %", 100.0 * error);
+        assert!(error.abs() < 3.0 / layers, "{error}");
+    }
+}
