@@ -58,7 +58,7 @@ impl ResultUnit {
     pub const K: Self = si(["K", "_k"]);
 
     /// All units that a name can end with; a longer end comes before one that it ends with.
-    pub const NAMED: [Self; 10] = [
+    pub const NAMED: [Self; 11] = [
         Self::M_S,
         Self::N_S,
         Self::MM,
@@ -69,6 +69,7 @@ impl ResultUnit {
         Self::MPA,
         Self::J,
         Self::K,
+        Self::DEG,
     ];
 
     /// A number in SI units as one in this unit.

@@ -26,12 +26,16 @@ class RunResult(ResultValues, Result):
     axisymmetric : Record or None
         Axisymmetric answer, if ``reference`` asked for it: ``quantity``, ``value``, ``uncertainty``, ``order``, ``outcome``, ``meshes``, and the
         ``reason`` where there is none.
+    seeds : Record or None
+        Means and spread over packings of particles, if ``seeds`` asked for them: the ``seeds``, and ``numbers`` with ``name``, ``mean``,
+        ``standard_deviation``, ``smallest``, ``largest`` and ``values``.
     {fields}
     """
 
     case: str
     percuss_version: str
     axisymmetric: Record | None
+    seeds: Record | None
 
     _native: _percuss.RunResult
 

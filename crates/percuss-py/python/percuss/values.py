@@ -40,6 +40,12 @@ class ResultValues:
     time_to_rest_us: float | None
     peak_force_kn: float | None
     contact_time_us: float | None
+    crack_length_mm: float | None
+    crack_speed_m_s: float | None
+    crack_angle_deg: float | None
+    broken_bonds: int | None
+    pieces: int | None
+    largest_piece: float | None
     end_time_us: float | None
     steps: int | None
     time_step_ns: float | None
@@ -73,6 +79,8 @@ class SampleColumns:
     projectile_length_mm: Array
     contact_force_kn: Array
     back_force_kn: Array
+    crack_length_mm: Array
+    crack_reach_mm: Array
     energy_initial_j: Array
     energy_kinetic_projectile_j: Array
     energy_kinetic_target_j: Array
