@@ -19,6 +19,8 @@ fn is_one_dimensional(candidate: &Candidate) -> bool {
 const PAPER: &str = "chain: column";
 /// Target resistance model whose forms were selected with the reference cases.
 const NOT_BLIND: &str = "chain: expanding-cavity";
+/// Models that were corrected after a look at the cases of both designs.
+const SEEN: &str = "`energy_balance` and `momentum_balance` were corrected after a look at these cases, so their errors are not blind.";
 
 /// Sentences on the accuracy of one-dimensional models: the most accurate one, that of the seed paper, and where the median absolute error
 /// is at most [`CLOSE`].
@@ -43,8 +45,10 @@ pub fn findings(verdicts: &[ErrorRecord]) -> Vec<String> {
     let is_blind = !verdicts
         .iter()
         .any(|verdict| PAIRS.contains(&(verdict.projectile.as_str(), verdict.target.as_str())));
+    sentences.push(SEEN.to_owned());
     if is_blind {
-        sentences.push("No model was developed on these cases: the errors are blind.".to_owned());
+        sentences
+            .push("No other model was developed on these cases: the errors are blind.".to_owned());
     } else if errors_of(verdicts, NOT_BLIND, all).is_some() {
         sentences.push(format!(
             "No constant of any model was fitted to the reference. The functional forms of `{NOT_BLIND}` were selected with these cases, \
