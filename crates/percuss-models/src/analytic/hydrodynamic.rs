@@ -1,6 +1,6 @@
 //! Model `hydrodynamic`: the depth that a rod without strength makes in a target without strength.
 
-use super::long_rod::{LongRod, NOT_ONE_TARGET, detail};
+use super::long_rod::{LongRod, NOT_ONE_TARGET, detail, nothing_moves};
 use crate::{
     Error, Refusal, Scenario,
     outcome::{BandQuantity, Outcome, RunResult, Termination},
@@ -68,11 +68,7 @@ impl Model for Hydrodynamic {
         let (projectile, target) = rod.densities();
         let ratio = (projectile / target).sqrt();
         if rod.speed == 0.0 {
-            let mut result =
-                RunResult::new(self.name(), "", Outcome::AtRest, Termination::NothingMoves);
-            result.depth_of_penetration = Some(0.0);
-            result.residual_velocity = Some(0.0);
-            return Ok(result);
+            return Ok(nothing_moves(self.name()));
         }
         let speed = rod.speed * ratio / (1.0 + ratio);
         let mut result = RunResult::new(

@@ -4,7 +4,7 @@ use crate::{
     Refusal,
     error::NumericalError,
     material::Material,
-    outcome::Detail,
+    outcome::{Detail, Outcome, RunResult, Termination},
     problem::Nose,
     regime::{ProjectileRegime, Regime},
     scenario::{Scenario, TargetBody},
@@ -80,9 +80,22 @@ pub(super) fn strength(
     match (given, material.flow_stress(STRENGTH_STRAIN)) {
         (Some(given), _) => Ok(given.si()),
         (None, Some(stress)) => Ok(stress),
-        (None, None) => Err(Refusal::new(format!("the {what}'s material never yields"))
-            .with_remedy(format!("give `{key}`, or another strength law"))),
+        (None, None) => Err(never_yields(what, key)),
     }
+}
+
+/// The refusal of a material that never yields, where a key can give its strength.
+pub(super) fn never_yields(what: &str, key: &str) -> Refusal {
+    Refusal::new(format!("the {what}'s material never yields"))
+        .with_remedy(format!("give `{key}`, or another strength law"))
+}
+
+/// The result of a rod without velocity.
+pub(super) fn nothing_moves(model: &'static str) -> RunResult {
+    let mut result = RunResult::new(model, "", Outcome::AtRest, Termination::NothingMoves);
+    result.depth_of_penetration = Some(0.0);
+    result.residual_velocity = Some(0.0);
+    result
 }
 
 pub(super) fn detail(name: &'static str, unit: &'static str, value: f64) -> Detail {

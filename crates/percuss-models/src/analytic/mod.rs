@@ -16,6 +16,7 @@ mod lanz_odermatt;
 mod limit;
 mod long_rod;
 mod momentum_balance;
+mod moving_mass;
 mod nose_load;
 mod nose_shape;
 mod ode;

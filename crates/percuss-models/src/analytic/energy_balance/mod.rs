@@ -13,7 +13,9 @@ use super::{
     cavity_expansion::effective_yield_stress,
     dynamic_yield::mean_flow_stress,
     impact_wave::ImpactWave,
-    long_rod::{LongRod, NOT_ONE_TARGET, detail, rests_on, sharp_and_rigid},
+    long_rod::{
+        LongRod, NOT_ONE_TARGET, detail, never_yields, nothing_moves, rests_on, sharp_and_rigid,
+    },
     rod_flow::RodFlow,
 };
 use crate::{
@@ -62,12 +64,6 @@ fn dynamic_factor(material: &Material, rate: f64) -> Option<f64> {
         slow += material.flow_stress((f64::from(i) + 0.5) * step)?;
     }
     Some(fast * f64::from(PANELS) / slow)
-}
-
-/// The refusal of a material that never yields.
-fn never_yields(what: &str, key: &str) -> Refusal {
-    Refusal::new(format!("the {what}'s material never yields"))
-        .with_remedy(format!("give `{key}`, or another strength law"))
 }
 
 impl EnergyBalance {
@@ -147,11 +143,7 @@ impl Model for EnergyBalance {
         let (rod, motion) = Self::motion(scenario)
             .map_err(|refusal| Error::not_applicable(self.name(), refusal))?;
         if rod.speed == 0.0 {
-            let mut result =
-                RunResult::new(self.name(), "", Outcome::AtRest, Termination::NothingMoves);
-            result.depth_of_penetration = Some(0.0);
-            result.residual_velocity = Some(0.0);
-            return Ok(result);
+            return Ok(nothing_moves(self.name()));
         }
         let stop = motion.penetrate(rod.speed, rod.length)?;
         let (outcome, termination) = if stop.length == 0.0 {

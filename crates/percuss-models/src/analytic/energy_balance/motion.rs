@@ -6,6 +6,7 @@ use super::{
     super::{
         impact_wave::ImpactWave,
         long_rod::failure,
+        moving_mass::MovingMass,
         ode::{FinalState, Problem},
         rod_flow::RodFlow,
     },
@@ -76,7 +77,7 @@ type State = [f64; 8];
 
 impl Motion {
     /// Rates in a phase.
-    fn rates(&self, state: &State, zone: Zone, phase: Phase) -> State {
+    fn rates(&self, state: &State, zone: MovingMass, phase: Phase) -> State {
         let &[tail, floor, length, depth, ..] = state;
         let (rod, target) = (&self.rod, &self.target);
         let arriving = match phase {
@@ -84,7 +85,7 @@ impl Motion {
             Phase::Joined => 0.0,
         };
         let turned = rod.turned(arriving);
-        let (mass, growth) = zone.mass(depth);
+        let (mass, growth) = zone.at(depth);
         let own = rod.density * rod.area * length;
         let area = match phase {
             // Rod and zone go on as one, each through an area of its own.
@@ -124,7 +125,7 @@ impl Motion {
     fn solve(
         &self,
         start: State,
-        zone: Zone,
+        zone: MovingMass,
         phase: Phase,
         scale: (f64, f64),
     ) -> Result<FinalState<8>, NumericalError> {
@@ -184,7 +185,7 @@ impl Motion {
         let carried = line * slice;
         let time = slice / self.wave.speed;
         Contact {
-            zone: Zone {
+            zone: MovingMass {
                 first: struck + carried,
                 full: full + carried,
                 radius,
@@ -236,14 +237,14 @@ impl Motion {
             state[0] = state[1];
             run(&mut state, Phase::Joined)?;
         } else if state[1] <= 2.0 * STOPPED * speed {
-            left = 0.5 * contact.zone.mass(state[3]).0 * state[1] * state[1];
+            left = 0.5 * contact.zone.at(state[3]).0 * state[1] * state[1];
             state[1] = 0.0;
             run(&mut state, Phase::Flattening)?;
             left += self.kinetic(state[2], state[0]);
         } else {
             // Tail and floor meet: one speed for both, and the momentum of both.
             let own = self.rod.density * self.rod.area * state[2];
-            let mass = contact.zone.mass(state[3]).0;
+            let mass = contact.zone.at(state[3]).0;
             let common = (own * state[0] + mass * state[1]) / (own + mass);
             let lost = self.kinetic(state[2], state[0]) + 0.5 * mass * state[1] * state[1]
                 - 0.5 * (own + mass) * common * common;
@@ -274,36 +275,6 @@ impl Motion {
     }
 }
 
-/// Mass of target that moves with the floor, as the crater forms.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Zone {
-    /// After the first contact [kg].
-    first: f64,
-    /// Of the floor below the entry [kg].
-    full: f64,
-    /// Radius of that floor [m].
-    radius: f64,
-    /// Depth at which the growth begins [m].
-    from: f64,
-}
-
-impl Zone {
-    /// Area of the floor [m2].
-    fn area(&self) -> f64 {
-        PI * self.radius * self.radius
-    }
-
-    /// Mass at a depth [kg] and its slope [kg/m]: it grows with the area of the floor in contact, `1 − (1 − P/b)²`.
-    fn mass(&self, depth: f64) -> (f64, f64) {
-        let rest = (1.0 - (depth - self.from) / self.radius).clamp(0.0, 1.0);
-        let more = self.full - self.first;
-        (
-            self.full - more * rest * rest,
-            2.0 * more * rest / self.radius,
-        )
-    }
-}
-
 /// What rod and floor do.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Phase {
@@ -317,7 +288,7 @@ enum Phase {
 
 /// State right after the first contact.
 struct Contact {
-    zone: Zone,
+    zone: MovingMass,
     rigid: bool,
     floor: f64,
     length: f64,

@@ -2,10 +2,7 @@
 
 use std::f64::consts::PI;
 
-/// Least mean pressure of the field of a flat punch on a free surface over the flow stress, as in model `power_balance`.
-const PUNCH: f64 = 3.19;
-/// Radius of that field over the punch's.
-const PUNCH_REACH: f64 = 2.31;
+use super::super::power_balance::fields::punch;
 
 /// A target that flows at one stress.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,8 +32,8 @@ impl Target {
         if !self.entry {
             return self.deep();
         }
-        let collar = 2.0 * PUNCH_REACH / (PUNCH_REACH * PUNCH_REACH - 1.0) / 3.0_f64.sqrt();
-        (self.strength * (PUNCH + collar * depth.max(0.0) / radius)).min(self.deep())
+        let collar = 2.0 * punch::EXTENT / (punch::EXTENT * punch::EXTENT - 1.0) / 3.0_f64.sqrt();
+        (self.strength * (punch::PRESSURE + collar * depth.max(0.0) / radius)).min(self.deep())
     }
 
     /// Extent of the plastic zone in radii of the floor: `(2E/3Y)^⅓`.

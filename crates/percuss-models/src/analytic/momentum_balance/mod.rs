@@ -9,7 +9,9 @@ use self::{motion::Motion, zone::Zone};
 use super::{
     cavity_expansion::CavityExpansion,
     impact_wave::ImpactWave,
-    long_rod::{LongRod, NOT_ONE_TARGET, detail, rests_on, sharp_and_rigid, strength},
+    long_rod::{
+        LongRod, NOT_ONE_TARGET, detail, never_yields, rests_on, sharp_and_rigid, strength,
+    },
     rod_flow::RodFlow,
 };
 use crate::{
@@ -70,10 +72,8 @@ impl MomentumBalance {
             }),
             None => CavityExpansion::of(rod.target),
         };
-        let body = body.ok_or_else(|| {
-            Refusal::new("the target's material never yields")
-                .with_remedy("give `momentum_balance.target_strength`, or another strength law")
-        })?;
+        let body =
+            body.ok_or_else(|| never_yields("target", "momentum_balance.target_strength"))?;
         let mut motion = Motion {
             rod: RodFlow {
                 density: rod.projectile.density.si(),

@@ -4,6 +4,7 @@ use super::{
     super::{
         impact_wave::ImpactWave,
         long_rod::failure,
+        moving_mass::MovingMass,
         ode::{FinalState, Problem},
         rod_flow::RodFlow,
     },
@@ -31,15 +32,6 @@ pub(super) struct Motion {
     pub(super) wave: ImpactWave,
     /// Length of the slice of the rod that plane waves stop at first [m]: its radius, or 0 in a limit.
     pub(super) slice: f64,
-}
-
-/// Mass of target and rod per area that moves with the floor [kg/m2]; it grows with the area of the floor in contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Moving {
-    first: f64,
-    full: f64,
-    /// Depth at which the growth begins [m].
-    from: f64,
 }
 
 /// Tail speed, floor speed, length, depth, and the momentum on the axis that has left it [m/s, m/s, m, m, Pa s].
@@ -70,16 +62,6 @@ impl Motion {
     /// Mass of target per area that moves with the floor once the zone has formed [kg/m2].
     pub(super) fn full_mass(&self) -> f64 {
         self.zone.density * self.radius * Zone::moving_length(self.zone.extent(0.0))
-    }
-
-    /// The moving mass at a depth [m] [kg/m2] and its slope [kg/m3]: grown by `1 − (1 − P/b)²`.
-    fn moving_mass(&self, moving: Moving, depth: f64) -> (f64, f64) {
-        let rest = (1.0 - (depth - moving.from) / self.radius).clamp(0.0, 1.0);
-        let more = moving.full - moving.first;
-        (
-            moving.full - more * rest * rest,
-            2.0 * more * rest / self.radius,
-        )
     }
 
     /// Pressure of the target at the middle of a floor in steady flow [Pa].
@@ -117,12 +99,12 @@ impl Motion {
     fn rates(
         &self,
         &[tail, floor, length, depth, _]: &State,
-        moving: Moving,
+        moving: MovingMass,
         phase: Phase,
     ) -> State {
         let rod = &self.rod;
         let speed = floor.max(0.0);
-        let (mass, growth) = self.moving_mass(moving, depth);
+        let (mass, growth) = moving.at(depth);
         let forming = growth * speed * speed;
         let against = self.against(speed);
         let own = rod.density * length;
@@ -150,7 +132,7 @@ impl Motion {
     fn solve(
         &self,
         start: State,
-        moving: Moving,
+        moving: MovingMass,
         phase: Phase,
         (speed, length): (f64, f64),
     ) -> Result<FinalState<5>, NumericalError> {
@@ -179,18 +161,19 @@ impl Motion {
     }
 
     /// Momentum per area on the axis [Pa s].
-    fn momentum(&self, moving: Moving, &[tail, floor, length, depth, _]: &State) -> f64 {
-        self.rod.density * length * tail + self.moving_mass(moving, depth).0 * floor
+    fn momentum(&self, moving: MovingMass, &[tail, floor, length, depth, _]: &State) -> f64 {
+        self.rod.density * length * tail + moving.at(depth).0 * floor
     }
 
     /// State and moving mass after the first contact: a slice of a rod that flows and the target that the wave has reached move at one
     /// speed, with the momentum of the rod. A rigid rod meets a zone that forms from nothing.
-    fn first_contact(&self, speed: f64, length: f64) -> (State, Moving, f64) {
+    fn first_contact(&self, speed: f64, length: f64) -> (State, MovingMass, f64) {
         let slice = self.slice.min(length);
         let full = self.full_mass();
         if slice <= 0.0 || self.rod.strength > self.against(speed) {
             let from = FIRST_DEPTH * self.radius;
-            let moving = Moving {
+            let moving = MovingMass {
+                radius: self.radius,
                 first: 0.0,
                 full,
                 from: 0.0,
@@ -205,7 +188,8 @@ impl Motion {
         let carried = self.rod.density * slice;
         let floor = speed * self.wave.share;
         let time = slice / self.wave.speed;
-        let moving = Moving {
+        let moving = MovingMass {
+            radius: self.radius,
             first: struck + carried,
             full: struck.max(full) + carried,
             from: floor * time,

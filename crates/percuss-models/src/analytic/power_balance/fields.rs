@@ -208,11 +208,10 @@ impl Dish {
 
 /// Field under a flat punch on a half-space: `ψ = F(r) G(z)`, `v_z = F′G/r`, `v_r = −F G′/r`, with `F = r²/2` under the punch,
 /// `F = (a²/2)((R² − r²)/(R² − a²))^p` around it and `G = V (1 − z/H)^q`.
-pub(super) mod punch {
+pub(in crate::analytic) mod punch {
     /// Depth H of the field in radii.
     pub const DEPTH: f64 = 0.86;
     /// Radius R of the field in radii.
-    #[cfg(test)]
     pub const EXTENT: f64 = 2.31;
     /// Exponents p and q.
     #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Model `power_balance`: perforation of plates by an upper bound of the power, with the fields' parameters minimised at each step.
 
-mod fields;
+pub(super) mod fields;
 mod flow;
 mod forces;
 mod history;

@@ -9,7 +9,9 @@ use flow::Flow;
 use motion::Motion;
 
 use super::{
-    long_rod::{LongRod, NOT_ONE_TARGET, detail, rests_on, sharp_and_rigid, strength},
+    long_rod::{
+        LongRod, NOT_ONE_TARGET, detail, nothing_moves, rests_on, sharp_and_rigid, strength,
+    },
     tate::LONG_ROD,
 };
 use crate::{
@@ -156,10 +158,7 @@ impl Model for WalkerAnderson {
         let (rod, motion, mut warnings) = Self::motion(scenario)
             .map_err(|refusal| Error::not_applicable(self.name(), refusal))?;
         if rod.speed == 0.0 {
-            let mut result =
-                RunResult::new(self.name(), "", Outcome::AtRest, Termination::NothingMoves);
-            result.depth_of_penetration = Some(0.0);
-            result.residual_velocity = Some(0.0);
+            let mut result = nothing_moves(self.name());
             result.projectile_final_length = Some(scenario.projectile.length);
             result.projectile_final_mass = Some(scenario.projectile.mass);
             return Ok(result);
