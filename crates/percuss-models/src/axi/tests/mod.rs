@@ -198,12 +198,22 @@ fn solver(bodies: Vec<Body>, cell: f64) -> Grid {
 
 /// Bodies with supports, ready to move.
 fn supported(bodies: Vec<Body>, supports: Vec<BoundaryConditions>, cell: f64) -> Grid {
+    supported_at(0.5, bodies, supports, cell)
+}
+
+/// The same at a Courant number.
+fn supported_at(
+    courant: f64,
+    bodies: Vec<Body>,
+    supports: Vec<BoundaryConditions>,
+    cell: f64,
+) -> Grid {
     let mut solver = Grid {
         bodies,
         supports,
         contact: Contact::Frictional(0.0),
         mesh: Mesh::even(cell),
-        courant: 0.5,
+        courant,
         limits: Limits {
             radius: f64::INFINITY,
             back: f64::NEG_INFINITY,
