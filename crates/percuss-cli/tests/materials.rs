@@ -267,45 +267,35 @@ fn a_deck_is_written_and_read_and_run() {
     let (own, library) = (depth("own.toml"), depth("library.toml"));
     assert!((own / library - 1.0).abs() < 1e-2, "{own} {library}");
 
-    let idle = percuss(
-        here,
-        [
-            "materials",
-            "import",
-            "metals.k",
-            "--units",
-            "mm-kg-ms",
-            "--file",
-            "own.toml",
-        ],
-    );
-    assert_eq!(idle.code, 2);
-    assert!(
-        idle.stderr
-            .contains("`--file` has no effect with `materials import`"),
-        "{}",
-        idle.stderr
-    );
-    let gone = percuss(
-        here,
-        ["materials", "import", "gone.k", "--units", "mm-kg-ms"],
-    );
-    assert_eq!(gone.code, 4);
-    assert!(
-        gone.stderr.contains("give the path of a file that exists"),
-        "{}",
-        gone.stderr
-    );
-    let folder = percuss(
-        here,
-        ["materials", "export", "4340", "--out", "gone/steel.toml"],
-    );
-    assert_eq!(folder.code, 4);
-    assert!(
-        folder.stderr.contains("make its folder first"),
-        "{}",
-        folder.stderr
-    );
+    for (words, code, said) in [
+        (
+            vec![
+                "materials",
+                "import",
+                "metals.k",
+                "--units",
+                "mm-kg-ms",
+                "--file",
+                "own.toml",
+            ],
+            2,
+            "`--file` has no effect with `materials import`",
+        ),
+        (
+            vec!["materials", "import", "gone.k", "--units", "mm-kg-ms"],
+            4,
+            "give the path of a file that exists",
+        ),
+        (
+            vec!["materials", "export", "4340", "--out", "gone/steel.toml"],
+            4,
+            "make its folder first",
+        ),
+    ] {
+        let refused = percuss(here, words);
+        assert_eq!(refused.code, code, "{}", refused.stderr);
+        assert!(refused.stderr.contains(said), "{}", refused.stderr);
+    }
     let wrong = percuss(
         here,
         ["materials", "import", "metals.k", "--units", "mm-t-s"],

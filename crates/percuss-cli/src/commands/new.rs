@@ -6,18 +6,36 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use clap::{Args, builder::PossibleValuesParser};
+use clap::{Args, ValueEnum};
 
 use crate::{failure::Failure, output, response::Response, run_folder::make_folder};
 
-/// The case that `percuss new` writes: valid, with every option at its default or with an example.
-const STARTER: &str = include_str!("new/starter.toml");
+/// Case that the command writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Template {
+    /// Every option of a case file, at its default or with an example
+    Starter,
+    /// A glass plate that cracks, for the model `particles`
+    BrittlePlate,
+}
 
-/// Cases that `--template` writes, by their names.
-const TEMPLATES: [(&str, &str); 2] = [
-    ("starter", STARTER),
-    ("brittle-plate", include_str!("new/brittle-plate.toml")),
-];
+impl Template {
+    /// Text of the case.
+    const fn text(self) -> &'static str {
+        match self {
+            Self::Starter => include_str!("new/starter.toml"),
+            Self::BrittlePlate => include_str!("new/brittle-plate.toml"),
+        }
+    }
+
+    /// Options of `percuss run` that the case needs.
+    const fn options(self) -> &'static str {
+        match self {
+            Self::Starter => "",
+            Self::BrittlePlate => " --model particles",
+        }
+    }
+}
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -40,9 +58,8 @@ pub struct New {
     /// Folder of the case, made if it does not exist; its name is that of the case
     name: PathBuf,
     /// Case to write
-    #[arg(long, value_name = "NAME", default_value = "starter")]
-    #[arg(value_parser = PossibleValuesParser::new(TEMPLATES.map(|(name, _)| name)))]
-    template: String,
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Template::Starter)]
+    template: Template,
     /// Overwrite an existing case
     #[arg(long)]
     force: bool,
@@ -58,10 +75,7 @@ impl New {
         output::print(&format!(
             "wrote {shown}\nnext: percuss run {}{}\n",
             quoted(&shown),
-            match self.template.as_str() {
-                "brittle-plate" => " --model particles",
-                _ => "",
-            }
+            self.template.options()
         ))
     }
 
@@ -104,10 +118,7 @@ impl New {
         } else {
             options.create_new(true);
         }
-        let (_, text) = TEMPLATES
-            .into_iter()
-            .find(|(name, _)| *name == self.template)
-            .unwrap_or(TEMPLATES[0]);
+        let text = self.template.text();
         options.open(path)?.write_all(text.as_bytes())
     }
 }
