@@ -11,7 +11,6 @@ pub mod limit;
 #[cfg(test)]
 mod made_up;
 pub mod model_error;
-pub mod seeds;
 pub mod summary;
 pub mod sweep;
 pub mod uncertainty;

@@ -58,6 +58,13 @@ impl Notches {
         }
     }
 
+    /// Numbers, from 1, of notches that cut no bond.
+    pub(super) fn idle(&self, body: &Body) -> Vec<usize> {
+        let cuts = |ends: &[[f64; 2]; 2]| body.crossed(*ends).next().is_some();
+        let idle = self.ends.iter().enumerate().filter(|(_, ends)| !cuts(ends));
+        idle.map(|(index, _)| index + 1).collect()
+    }
+
     fn is_cut(&self, bond: Bond) -> bool {
         self.cut.binary_search(&bond).is_ok()
     }
@@ -183,18 +190,20 @@ impl Body {
         0.5 * rest.weight * rest.length
     }
 
+    /// Bonds that a straight cut crosses.
+    fn crossed(&self, cut: [[f64; 2]; 2]) -> impl Iterator<Item = Bond> + '_ {
+        self.bonds().filter(move |&bond| {
+            let ends = self.ends(bond);
+            crosses(cut, ends.map(|(row, place)| self.reference(row, place)))
+        })
+    }
+
     /// Breaks the bonds that a straight cut crosses.
-    pub(super) fn cut(&mut self, [from, to]: [[f64; 2]; 2]) {
+    pub(super) fn cut(&mut self, cut: [[f64; 2]; 2]) {
         let Some(end) = self.softening.map(|law| law.end) else {
             return;
         };
-        let crossed = |bond: &Bond| {
-            let [a, b] = self
-                .ends(*bond)
-                .map(|(row, place)| self.reference(row, place));
-            crosses([from, to], [a, b])
-        };
-        let bonds: Vec<Bond> = self.bonds().filter(crossed).collect();
+        let bonds: Vec<Bond> = self.crossed(cut).collect();
         for (row, place, kind) in bonds {
             self.state[row].damage.worst[kind][place] = end;
         }

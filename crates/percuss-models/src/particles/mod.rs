@@ -16,6 +16,7 @@ mod run;
 mod setup;
 mod shape;
 mod step;
+mod survey;
 #[cfg(test)]
 mod tests;
 
@@ -42,6 +43,13 @@ pub fn particles(scenario: &Scenario) -> f64 {
 /// Whether the packing of a case has random numbers.
 pub fn has_seeds(scenario: &Scenario) -> bool {
     setup::packing(scenario) != packing::Packing::Hexagonal
+}
+
+/// The same case with the packing of another seed: another specimen of the same solid.
+pub fn with_seed(scenario: &Scenario, seed: u64) -> Scenario {
+    let mut other = scenario.clone();
+    other.options.particles.seed = Some(seed);
+    other
 }
 
 impl Model for Particles {

@@ -187,6 +187,14 @@ fn warnings(run: &PlaneImpact<'_>, result: &RunResult) -> Vec<String> {
             significant(run.state.largest_tension * 1e-6, 3)
         )),
     }
+    let idle = run.notches.idle(&run.body);
+    if !idle.is_empty() {
+        let numbers: Vec<String> = idle.iter().map(usize::to_string).collect();
+        warnings.push(format!(
+            "`particles.notches`: number {} cuts no bond of the body: it lies outside of it or between two particles",
+            numbers.join(", ")
+        ));
+    }
     if result.outcome == Outcome::OutOfTime {
         warnings.push(
             "the run ended before the bodies parted: the residual velocity is that of the moment; raise `particles.end_time`"
@@ -211,7 +219,7 @@ fn fracture_warnings(run: &PlaneImpact<'_>, softenings: &setup::Softenings) -> V
     }
     if run.body.broken_bonds() > 0 {
         warnings.push(
-            "paths and pieces of cracks scatter with the packing: run several values of `particles.seed`, and give mean and spread"
+            "paths and pieces of cracks scatter with the packing: give mean and spread over several values of `particles.seed` (`percuss run --seeds N`)"
                 .to_owned(),
         );
     }

@@ -2,8 +2,6 @@
 
 use std::borrow::Cow;
 
-use rayon::prelude::*;
-
 use super::{
     body::Body,
     cracks::{Front, Notches},
@@ -11,6 +9,7 @@ use super::{
     fields, results, setup,
     shape::{Contact, Rigid, contact, stiffness},
     step::Load,
+    survey::extremes,
 };
 use crate::{
     Error, Scenario,
@@ -34,8 +33,6 @@ use crate::{
 const INTERVAL: u64 = 50;
 /// Steps between two looks at the cracks.
 const LOOK: u64 = 10;
-/// Ways of a longitudinal wave across a body that breaks, after which its run ends where the case gives no time.
-const WAYS: f64 = 10.0;
 /// Largest stretch of a bond that holds: beyond it no brittle solid is whole.
 const LARGEST_STRETCH: f64 = 0.1;
 /// Round trips of a wave through the lattice, or from its middle to its side, without contact after which the bodies have parted.
@@ -110,40 +107,12 @@ impl PlaneImpact<'_> {
         self.loads.sort_by_key(|load| (load.row, load.place));
     }
 
-    /// Time in which cracks have run through a body that breaks, and the projectile has gone its thickness at the speed of the impact [s].
-    fn time_of_cracks(&self) -> f64 {
-        let extent = setup::extent(self.scenario);
-        let waves = WAYS * extent.length.max(extent.width) / self.body.lattice.wave_speed;
-        waves + extent.length / self.scenario.impact_velocity.max(1.0)
-    }
-
     /// Largest stretch of a bond and largest tension of a particle, now or before.
     fn survey(&mut self) {
-        let body = &self.body;
-        let (stretch, tension) = (0..body.rows.len())
-            .into_par_iter()
-            .map(|row| survey_row(body, row))
-            .reduce(|| (0.0, 0.0), |a, b| (a.0.max(b.0), a.1.max(b.1)));
+        let (stretch, tension) = extremes(&self.body);
         self.state.largest_stretch = self.state.largest_stretch.max(stretch);
         self.state.largest_tension = self.state.largest_tension.max(tension);
     }
-}
-
-/// Extremes of a row: only these are compared, so their order is of no account.
-fn survey_row(body: &Body, row: usize) -> (f64, f64) {
-    let mut extremes = (0.0_f64, 0.0_f64);
-    for place in (1..body.stride - 1).filter(|&place| body.rows[row].mass[place] > 0.0) {
-        let tension = fields::largest_tension(fields::stress(body, row, place));
-        extremes.1 = extremes.1.max(tension);
-        for kind in 0..3 {
-            let holds = body.softening.is_none() || !body.is_broken((row, place, kind));
-            if body.rows[row].weights[kind][place] > 0.0 && holds {
-                let stretch = body.bond_of(row, place, kind).elongation.abs();
-                extremes.0 = extremes.0.max(stretch / body.lattice.spacing);
-            }
-        }
-    }
-    extremes
 }
 
 impl<'a> Solver<'a> for PlaneImpact<'a> {
@@ -206,7 +175,9 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         let limits = Limits::new(self.scenario, options.end_time, options.max_steps());
         match (options.end_time, self.body.softening) {
             (None, Some(_)) => Limits {
-                end_time: limits.end_time.min(self.time_of_cracks()),
+                end_time: limits
+                    .end_time
+                    .min(setup::time_of_cracks(self.scenario, &self.body.lattice)),
                 ..limits
             },
             _ => limits,

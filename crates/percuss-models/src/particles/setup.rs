@@ -17,6 +17,8 @@ use crate::{
     scenario::{Plate, TargetBody},
 };
 
+/// Ways of a longitudinal wave across a body that breaks, after which its run ends where the case gives no time.
+const WAYS: f64 = 10.0;
 /// Spacings across the thinner of diameter and thickness, unless the case gives a spacing.
 const SPACINGS: f64 = 10.0;
 /// Width of a target in diameters of the projectile and in thicknesses, unless the case gives it.
@@ -221,6 +223,13 @@ pub(super) fn contact_law(scenario: &Scenario, body: &Body) -> ContactLaw {
 /// Whether the target is a disc.
 pub(super) fn is_disc(scenario: &Scenario) -> bool {
     layer(scenario).is_some() && scenario.options.particles.outline() == Outline::Disc
+}
+
+/// Time in which cracks have run through a body that breaks, and the projectile has gone its thickness at the speed of the impact [s].
+pub(super) fn time_of_cracks(scenario: &Scenario, lattice: &Lattice) -> f64 {
+    let size = extent(scenario);
+    let waves = WAYS * size.length.max(size.width) / lattice.wave_speed;
+    waves + size.length / scenario.impact_velocity.max(1.0)
 }
 
 /// Ends of the notches of a case [m].

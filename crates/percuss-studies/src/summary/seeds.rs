@@ -66,3 +66,36 @@ impl SeedStudy {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        case,
+        model::{Control, model, run},
+    };
+    use percuss_models::particles::with_seed;
+
+    /// A study has the mean and the spread of its runs, and every run is that of its seed alone.
+    #[test]
+    fn a_study_has_the_numbers_of_its_runs() {
+        let text = "[projectile]\nmaterial = 'steel'\nlength = '10 mm'\ndiameter = '10 mm'\nimpact_velocity = '20 m/s'\n\
+             nose = 'hemisphere'\n[target]\nmaterial = 'soda-lime-glass-float'\nthickness = '5 mm'\nback_face = 'free'\n\
+             [particles]\nspacing = '0.7 mm'\nwidth = '30 mm'\nend_time = '10 us'\n[materials.steel]\nname = 'steel'\n\
+             density = '7850 kg/m3'\nyoungs_modulus = '210 GPa'\npoissons_ratio = 0.3\nstrength.elastic = {}\n";
+        let scenario = case::load_str("seeds", text).unwrap();
+        let model = model("particles").unwrap();
+        let of = |seed| run(model, &with_seed(&scenario, seed), &mut Control::default()).unwrap();
+        let found = [1, 2, 3].map(of);
+        let study = SeedStudy::new(&scenario, 1, &found.iter().collect::<Vec<_>>());
+        assert_eq!(study.seeds, [1, 2, 3]);
+        let broken = study.numbers.iter().find(|n| n.name == "broken_bonds");
+        let broken = broken.unwrap();
+        let alone = run(model, &with_seed(&scenario, 2), &mut Control::default()).unwrap();
+        let of_alone = alone.cracks.unwrap().broken_bonds as f64;
+        assert_eq!(broken.values[1], of_alone);
+        assert!(broken.standard_deviation > 0.0 && of_alone > 0.0);
+        assert_eq!(broken.mean, broken.values.iter().sum::<f64>() / 3.0);
+        assert!(broken.smallest < broken.mean && broken.mean < broken.largest);
+    }
+}

@@ -9,7 +9,7 @@ use percuss::{
     Scenario,
     model::{self, Control, Model},
     outcome::RunResult,
-    seeds,
+    particles::with_seed,
     summary::SeedStudy,
     units::significant,
 };
@@ -47,8 +47,8 @@ pub(super) fn study(
             progress: Some(&mut report),
             ..Control::default()
         };
-        let seed = start.saturating_add(number);
-        others.extend(seeds::results(model, scenario, [seed], &mut control)?);
+        let other = with_seed(scenario, start.saturating_add(number));
+        others.push(model::run(model, &other, &mut control)?);
     }
     let results: Vec<&RunResult> = std::iter::once(first).chain(&others).collect();
     Ok(SeedStudy::new(scenario, start, &results))

@@ -85,6 +85,19 @@ fn a_straight_crack_has_its_length_and_angle() {
     assert_eq!(cracks.pieces, 2);
 }
 
+/// A notch outside of the body cuts nothing, and is found.
+#[test]
+fn a_notch_that_cuts_nothing_is_found() {
+    let mut body = brittle();
+    let place = 4.25 * SPACING;
+    let ends = vec![
+        [[1.0, 0.0], [1.0, 1e-3]],
+        [[place, -SPACING], [place, 1e-3]],
+    ];
+    body.cut(ends[1]);
+    assert_eq!(Notches::of(&body, ends).idle(&body), [1]);
+}
+
 /// A disc has the mass of its circle, less the half layer at its rim that belongs to no whole triangle.
 #[test]
 fn a_disc_has_the_mass_of_its_circle() {
