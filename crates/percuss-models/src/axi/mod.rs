@@ -32,6 +32,7 @@ mod warnings;
 
 pub use crate::options::{AxiOptions, ContactKind, Edge, Eos};
 pub use crate::solver::Particle;
+pub use warnings::layers_that_cannot_fail;
 
 use crate::{
     Error, Refusal, Scenario,

@@ -183,6 +183,7 @@ def limit(
     points: int | None = None,
     model: str | Sequence[str] | None = None,
     reference: str | None = None,
+    fast: bool = False,
     shots: Path | None = None,
     span: Speed | None = None,
     out: Path | None = None,
@@ -203,7 +204,10 @@ def limit(
     model : str or sequence of str, optional
         Models to search with; all except those that may take minutes when not given.
     reference : str, optional
-        ``"standard"`` or ``"fine"``: meshes on which ``axi`` is searched with too; ``axisymmetric`` then has the limit of fine meshes.
+        ``"standard"`` or ``"fine"``: meshes of the limit by ``axi``, whatever they cost; ``"standard"``, within 60 s of processor time,
+        when neither this nor ``model`` is given. ``axisymmetric`` has the limit of fine meshes.
+    fast : bool
+        Leave the axisymmetric limit out.
     shots : path, optional
         CSV file of tests with the columns ``impact_velocity_m_s`` and ``perforated``.
     span : float or str, optional
@@ -229,6 +233,7 @@ def limit(
         points=points,
         model=several(model),
         reference=reference,
+        fast=fast,
         shots=shots,
         span=with_unit(span),
         out=out,

@@ -132,6 +132,9 @@ def limits(limits: Limits, ax: Axes | None) -> Axes:
         points += [(p.impact_velocity_m_s, p.residual_velocity_m_s) for p in model.curve or []]
         label = f"{model.model}, {'input limit ' if given else ''}{limit:.4g} m/s"
         ax.plot(*zip(*points, strict=True), label=label, linestyle="--" if given else "-", marker=None if given else ".")
+    if limits.axisymmetric is not None and limits.axisymmetric.ballistic_limit_m_s is not None:
+        value, half = limits.axisymmetric.ballistic_limit_m_s, limits.axisymmetric.uncertainty_m_s
+        ax.axvspan(value - half, value + half, color="0.85", label=f"axisymmetric, {value:.4g} ± {half:.2g} m/s")
     for experiment in limits.experiments:
         if experiment.quantity == "ballistic_limit_m_s":
             ax.axvline(experiment.value, color="k", linestyle="--", label=f"measured, {experiment.value:.4g} m/s")

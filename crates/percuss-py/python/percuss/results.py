@@ -170,7 +170,7 @@ class Limits(Result):
     range : Record or None
         ``lowest_m_s`` and ``highest_m_s`` of the ``models`` that predict a limit.
     axisymmetric : Record or None
-        ``ballistic_limit_m_s`` by ``axi`` in the limit of fine meshes, its ``uncertainty_m_s`` and the ``meshes``, where asked for.
+        ``ballistic_limit_m_s`` by ``axi`` in the limit of fine meshes, its ``uncertainty_m_s`` and the ``meshes``.
     experiments : list of Record
         Measured values.
     results : list of Record
@@ -191,6 +191,7 @@ class Limits(Result):
     recommended: list[Record]
     note: str | None
     range: Record | None
+    axisymmetric: Record | None
     experiments: list[Record]
     results: list[Record]
     v50: Record | None

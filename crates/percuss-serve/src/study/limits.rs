@@ -1,6 +1,7 @@
 //! Ballistic limits.
 
 use percuss::{
+    axisymmetric::Request,
     limit::{self, RearFace, Search},
     model,
 };
@@ -17,13 +18,12 @@ pub(super) fn limits(job: &Job<'_>) -> Result<Study, Problem> {
     let mut watch = limit::Observer {
         progress: Some(&mut report),
     };
-    let limits = limit::limits(
-        &model::fast_models(),
-        &scenario,
-        &Search::default(),
-        &mut watch,
-    )
-    .map_err(|error| job.stop.problem(error))?;
+    let search = Search {
+        axisymmetric: Some(Request::unasked()),
+        ..Search::default()
+    };
+    let limits = limit::limits(&model::fast_models(), &scenario, &search, &mut watch)
+        .map_err(|error| job.stop.problem(error))?;
     let chart = limit_chart(&scenario, &limits);
     let outcomes: Vec<&str> = limits
         .results

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario,
-    axisymmetric::{BUDGET, ReferenceMeshes, Request},
+    axisymmetric::{ReferenceMeshes, Request},
     case,
     compare::{self, Comparison, Observer},
     model::{self, CostClass, MODELS},
@@ -179,15 +179,9 @@ impl Compare {
     fn axisymmetric(&self, speeds: &[f64]) -> Option<Request> {
         let named = self.reference.as_deref().and_then(ReferenceMeshes::named);
         match named {
-            Some(meshes) => Some(Request {
-                meshes,
-                budget: None,
-            }),
+            Some(meshes) => Some(Request::whole(meshes)),
             None if self.fast || !self.model.is_empty() || speeds.len() > 1 => None,
-            None => Some(Request {
-                meshes: ReferenceMeshes::default(),
-                budget: Some(BUDGET),
-            }),
+            None => Some(Request::unasked()),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Terminal output of `percuss limit`: ballistic limits and V50.
 
 use percuss::{
-    Scenario,
+    Scenario, axisymmetric,
     limit::{LambertJonasFit, LimitOutcome, Limits, ModelLimit, RearFace, Tolerance},
     units::significant,
     v50::{Estimate, Method, Pattern, V50},
@@ -35,7 +35,8 @@ pub fn head(scenario: &Scenario, limits: &Limits, tolerance: Tolerance) -> Strin
 /// Table of limits, warnings, and models without a limit.
 pub fn text(limits: &Limits) -> String {
     let found: Vec<&ModelLimit> = limits.results.iter().filter(|l| is_found(l)).collect();
-    let mut text = axisymmetric(limits);
+    let mut text = headline(limits).map_or_else(String::new, |line| format!("{}\n\n", bold(line)));
+    text += &axisymmetric(limits);
     if found.is_empty() {
         text += "no model finds a limit in this range\n\n";
     } else {
@@ -62,27 +63,59 @@ pub fn text(limits: &Limits) -> String {
     text
 }
 
+/// The limit to use, and how far to trust it.
+fn headline(limits: &Limits) -> Option<String> {
+    let choice = limits.recommended.first()?;
+    let line = match limits.results.iter().find(|l| l.model == choice.model) {
+        Some(entry) => {
+            let value = entry.ballistic_limit_m_s?;
+            let error = entry.expected_error.as_ref();
+            let error = error.map_or_else(String::new, |e| {
+                format!(", model error {}", e.errors.describe())
+            });
+            format!(
+                "Ballistic limit {} m/s ({}){error}{}",
+                significant(value, 4),
+                choice.model,
+                from_measured(limits, value)
+            )
+        }
+        None => format!(
+            "Axisymmetric ballistic limit {}",
+            axisymmetric_limit(limits)?
+        ),
+    };
+    Some(wrap(&line, width(), 0))
+}
+
+/// Difference from the measured limit in words; empty without one.
+fn from_measured(limits: &Limits, value: f64) -> String {
+    limits.measured().map_or_else(String::new, |(measured, _)| {
+        format!(
+            ", {:+.1} % from the measured {} m/s",
+            100.0 * (value / measured - 1.0),
+            significant(measured, 4)
+        )
+    })
+}
+
+/// The axisymmetric limit with its uncertainty, if there is one.
+fn axisymmetric_limit(limits: &Limits) -> Option<String> {
+    let limit = limits.axisymmetric.as_ref()?;
+    let value = limit.ballistic_limit_m_s?;
+    let shown = with_uncertainty(value, limit.uncertainty_m_s.unwrap_or(0.0), "m/s");
+    Some(shown + &from_measured(limits, value))
+}
+
 /// Limit by the axisymmetric model, and what its meshes gave.
 fn axisymmetric(limits: &Limits) -> String {
     let Some(limit) = &limits.axisymmetric else {
         return String::new();
     };
-    let mut text = match limit.ballistic_limit_m_s {
-        Some(value) => {
-            let uncertainty = limit.uncertainty_m_s.unwrap_or(0.0);
-            let shown = with_uncertainty(value, uncertainty, "m/s");
-            let beside = limits.measured().map_or_else(String::new, |(measured, _)| {
-                format!(
-                    ", {:+.1} % from the measured {} m/s",
-                    100.0 * (value / measured - 1.0),
-                    significant(measured, 4)
-                )
-            });
-            format!(
-                "{}{beside}\n",
-                bold(format!("Axisymmetric ballistic limit {shown}"))
-            )
-        }
+    let mut text = match axisymmetric_limit(limits) {
+        // The first line has it.
+        Some(_) if limits.is_recommended(axisymmetric::MODEL) => String::new(),
+        Some(shown) => paragraph(&format!("axisymmetric limit {shown}")),
         None => paragraph(&format!(
             "no axisymmetric ballistic limit: {}",
             limit.reason.as_deref().unwrap_or("no reason given")
