@@ -5,7 +5,7 @@ use percuss::{
     limit::{self, RearFace, Search},
     model,
 };
-use percuss_report::{limit_chart, limit_files};
+use percuss_report::{axisymmetric_limit, limit_chart, limit_files, limit_headline};
 use serde_json::json;
 
 use super::{Job, Study, csv_files};
@@ -39,6 +39,8 @@ pub(super) fn limits(job: &Job<'_>) -> Result<Study, Problem> {
         .chain([("limit.json".to_owned(), pretty(&limits))])
         .collect();
     let record = json!({
+        "headline": limit_headline(&limits),
+        "axisymmetric": axisymmetric_limit(&limits),
         "measured": limits.measured().map(|(value, _)| value),
         "limits": limits,
         "outcomes": outcomes,

@@ -7,7 +7,7 @@ use percuss::{
     v50::{Estimate, Method, Pattern, V50},
 };
 use percuss_report::{
-    result_rows::with_uncertainty,
+    axisymmetric_limit, limit_headline,
     table::{Table, number},
 };
 
@@ -35,7 +35,9 @@ pub fn head(scenario: &Scenario, limits: &Limits, tolerance: Tolerance) -> Strin
 /// Table of limits, warnings, and models without a limit.
 pub fn text(limits: &Limits) -> String {
     let found: Vec<&ModelLimit> = limits.results.iter().filter(|l| is_found(l)).collect();
-    let mut text = headline(limits).map_or_else(String::new, |line| format!("{}\n\n", bold(line)));
+    let mut text = limit_headline(limits).map_or_else(String::new, |line| {
+        format!("{}\n\n", bold(wrap(&line, width(), 0)))
+    });
     text += &axisymmetric(limits);
     if found.is_empty() {
         text += "no model finds a limit in this range\n\n";
@@ -61,50 +63,6 @@ pub fn text(limits: &Limits) -> String {
         text.push('\n');
     }
     text
-}
-
-/// The limit to use, and how far to trust it.
-fn headline(limits: &Limits) -> Option<String> {
-    let choice = limits.recommended.first()?;
-    let line = match limits.results.iter().find(|l| l.model == choice.model) {
-        Some(entry) => {
-            let value = entry.ballistic_limit_m_s?;
-            let error = entry.expected_error.as_ref();
-            let error = error.map_or_else(String::new, |e| {
-                format!(", model error {}", e.errors.describe())
-            });
-            format!(
-                "Ballistic limit {} m/s ({}){error}{}",
-                significant(value, 4),
-                choice.model,
-                from_measured(limits, value)
-            )
-        }
-        None => format!(
-            "Axisymmetric ballistic limit {}",
-            axisymmetric_limit(limits)?
-        ),
-    };
-    Some(wrap(&line, width(), 0))
-}
-
-/// Difference from the measured limit in words; empty without one.
-fn from_measured(limits: &Limits, value: f64) -> String {
-    limits.measured().map_or_else(String::new, |(measured, _)| {
-        format!(
-            ", {:+.1} % from the measured {} m/s",
-            100.0 * (value / measured - 1.0),
-            significant(measured, 4)
-        )
-    })
-}
-
-/// The axisymmetric limit with its uncertainty, if there is one.
-fn axisymmetric_limit(limits: &Limits) -> Option<String> {
-    let limit = limits.axisymmetric.as_ref()?;
-    let value = limit.ballistic_limit_m_s?;
-    let shown = with_uncertainty(value, limit.uncertainty_m_s.unwrap_or(0.0), "m/s");
-    Some(shown + &from_measured(limits, value))
 }
 
 /// Limit by the axisymmetric model, and what its meshes gave.
