@@ -31,7 +31,7 @@ pub fn text(
 ) -> String {
     let mut text = String::new();
     head(scenario, result, record, &mut text);
-    let mut outcome = result_rows::outcome_rows(scenario, result, record);
+    let mut outcome = result_rows::outcome_rows(scenario, result, record, result_rows::DIGITS);
     if let Some((_, ended)) = outcome.first_mut() {
         *ended = bold(&ended);
     }

@@ -7,6 +7,9 @@ use percuss::{
     units::significant,
 };
 
+/// Digits of a number in the terminal.
+pub const DIGITS: usize = 5;
+
 /// Label, and value with its unit.
 pub type Row = (String, String);
 
@@ -19,8 +22,13 @@ impl Rows {
     }
 }
 
-/// Outcome and all result numbers of tables, in the order of the record.
-pub fn outcome_rows(scenario: &Scenario, result: &RunResult, record: &ResultRecord) -> Vec<Row> {
+/// Outcome and all result numbers of tables to so many digits, in the order of the record.
+pub fn outcome_rows(
+    scenario: &Scenario,
+    result: &RunResult,
+    record: &ResultRecord,
+    digits: usize,
+) -> Vec<Row> {
     let mut rows = Rows::default();
     rows.add("outcome", result.outcome.describe());
     if let Some(criterion) = &record.criterion {
@@ -30,7 +38,7 @@ pub fn outcome_rows(scenario: &Scenario, result: &RunResult, record: &ResultReco
     for field in RESULT_FIELDS {
         match (&field.number, field.name) {
             (Some(result_number), _) if result_number.role.is_result() => {
-                if let Some(value) = in_table(result_number, scenario, result, record) {
+                if let Some(value) = in_table(result_number, scenario, result, record, digits) {
                     rows.add(result_number.label, value);
                 }
             }
@@ -48,6 +56,7 @@ fn in_table(
     scenario: &Scenario,
     result: &RunResult,
     record: &ResultRecord,
+    digits: usize,
 ) -> Option<String> {
     let rod = &scenario.projectile;
     let initial = match of.name {
@@ -66,10 +75,14 @@ fn in_table(
     };
     let unit = of.unit.symbol;
     Some(match (initial, of.name) {
-        (Some(initial), _) => of_initial(value, of.unit.of_si(initial), unit),
-        (None, "residual_velocity_m_s") if value < 0.0 => number(value, unit) + " (backwards)",
-        (None, "residual_velocity_m_s") if value > 0.0 => number(value, unit) + " (forward)",
-        _ => number(value, unit),
+        (Some(initial), _) => of_initial(value, of.unit.of_si(initial), unit, digits),
+        (None, "residual_velocity_m_s") if value < 0.0 => {
+            to_digits(value, unit, digits) + " (backwards)"
+        }
+        (None, "residual_velocity_m_s") if value > 0.0 => {
+            to_digits(value, unit, digits) + " (forward)"
+        }
+        _ => to_digits(value, unit, digits),
     })
 }
 
@@ -135,7 +148,11 @@ pub fn balance_rows(numerics: &Numerics, end_time: f64) -> Vec<Row> {
 
 /// A number to five digits with its unit.
 pub fn number(value: f64, unit: &str) -> String {
-    format!("{} {unit}", significant(value, 5))
+    to_digits(value, unit, DIGITS)
+}
+
+fn to_digits(value: f64, unit: &str, digits: usize) -> String {
+    format!("{} {unit}", significant(value, digits))
         .trim_end()
         .to_owned()
 }
@@ -153,12 +170,16 @@ pub fn with_uncertainty(value: f64, uncertainty: f64, unit: &str) -> String {
     format!("{value:.decimals$} ± {uncertainty:.decimals$} {unit}")
 }
 
-fn of_initial(value: f64, initial: f64, unit: &str) -> String {
+fn of_initial(value: f64, initial: f64, unit: &str, digits: usize) -> String {
+    let share = value / initial;
+    let share = match digits {
+        DIGITS.. => percentage(share),
+        _ => significant(100.0 * share, digits),
+    };
     format!(
-        "{} ({} % of {})",
-        number(value, unit),
-        percentage(value / initial),
-        number(initial, unit)
+        "{} ({share} % of {})",
+        to_digits(value, unit, digits),
+        to_digits(initial, unit, digits)
     )
 }
 
