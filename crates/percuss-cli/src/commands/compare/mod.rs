@@ -40,8 +40,8 @@ of the case, and the reason where a model does not apply. A model that fails
 does not stop the others.
 
 The axisymmetric model `axi` runs on 3, 4 and 6 cells per radius: its number is
-the limit of the meshes, its range the discretisation uncertainty. It is left out
-with --fast, where it costs more than 60 s of processor time, and at several
+the limit of the meshes, its range the discretisation uncertainty. It is left
+out with --fast, where it costs more than 60 s of processor time, and at several
 velocities unless --reference asks for it.
 
 With --velocity the case is run at other impact velocities:
@@ -61,7 +61,7 @@ const AFTER_HELP: &str = "\
 Examples:
   percuss compare my-case/scenario.toml
   percuss compare my-case/scenario.toml --velocity 200..1500:27 --out results
-  percuss compare my-case/scenario.toml --velocity 200..1500:14 --reference standard
+  percuss compare my-case/scenario.toml --velocity 200,400,600 --reference fine
   percuss compare my-case/scenario.toml --model chain --json
 
 Exit codes: 0 ok, 2 bad input or no model gives a result, 4 a file could not be

@@ -62,19 +62,20 @@ time histories writes the first two only. The fields of the axisymmetric answer
 at its end are axisymmetric.vtp for ParaView and a picture, axisymmetric.png.
 Files of the same names are replaced, other files are kept.
 
-With --fields the models `chain`, `fdm` and `axi` also write their fields against
-time as a series for ParaView (fields.pvd, which can be opened during the run).
-Ctrl-C, or a termination request of the system, leaves a checkpoint in DIR, from
-which --resume continues with the same numbers.
+With --fields the models `chain`, `fdm` and `axi` also write their fields
+against time as a series for ParaView (fields.pvd, which can be opened during
+the run). Ctrl-C, or a termination request of the system, leaves a checkpoint in
+DIR, from which --resume continues with the same numbers.
 
 The two-dimensional model `axi` also writes the shapes of crater and projectile
 (CSV and figure) and its fields at the end: field.vtp for ParaView and a picture
 of one of them, field.png. With --animation it writes animation.gif and its
 pictures (frames/).
 
-With --seeds N the model `particles` runs N packings: the seed of the case and the
-next ones. The table and --json (`seeds`) then also have mean, standard deviation
-and range of every result number. Files and the first table are of the first seed.
+With --seeds N the model `particles` runs N packings: the seed of the case and
+the next ones. The table and --json (`seeds`) then also have mean, standard
+deviation and range of every result number. Files and the first table are of the
+first seed.
 
 After one second a progress bar appears, if standard error is a terminal.";
 
