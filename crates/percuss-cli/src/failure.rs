@@ -183,6 +183,10 @@ impl Failure {
             Self::NoResult(reasons) => {
                 message("no model gives a result for this case", "") + &lines(reasons)
             }
+            Self::Stopped { time_us: 0.0 } => message(
+                "the run was stopped before its first step: it left no checkpoint",
+                "",
+            ),
             Self::Stopped { time_us } => {
                 let what = format!("the run was stopped at {time_us:.1} us and left a checkpoint");
                 message(

@@ -3,6 +3,7 @@
 mod by_models;
 mod cli;
 mod commands;
+mod cost;
 mod diagnostic;
 mod failure;
 mod file_list;

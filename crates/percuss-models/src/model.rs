@@ -21,10 +21,10 @@ pub use choice::{ChosenModel, DEFAULT_MODEL, choose, default_model};
 pub use recommend::recommend;
 pub use recommend::{Choice, Recommendation};
 
-pub use crate::solver::memory;
 pub use crate::solver::{
     Checkpoints, Control, CostClass, Model, OnFrame, Progress, applicability, run, run_explained,
 };
+pub use crate::solver::{Estimate, memory, time_in_words};
 pub use crate::solver::{applicability_in, complete, run_in};
 
 /// All models. Adding one is one file and one line here.

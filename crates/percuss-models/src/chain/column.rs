@@ -9,6 +9,7 @@ use crate::{
     options::{ChainOptions, ErosionCriterion, ErosionStrain},
     outcome::{Outcome, RunResult, Termination},
     solver::{
+        Control,
         archive::Archive,
         driver::Drive,
         frames::Fields,
@@ -98,8 +99,12 @@ impl<'a> Solver<'a> for Column<'a> {
         },
     };
 
-    fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
+    fn build(scenario: &'a Scenario, courant: f64, _: &mut Control<'_>) -> Result<Self, Error> {
         Ok(Self::new(scenario, courant))
+    }
+
+    fn size(&self) -> usize {
+        self.state.elements.len()
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {

@@ -26,10 +26,21 @@ use crate::{
     Error, Refusal, Scenario,
     outcome::{BandQuantity, RunResult},
     regime::{ProjectileRegime, TargetKind},
-    solver::{Control, CostClass, Model},
+    solver::{
+        Control, CostClass, Estimate, Model,
+        estimate::{ExpectedTimes, WorkRate},
+    },
     units::Length,
     validity::ValidityDomain,
 };
+
+/// Memory of a particle with the fields that show it [bytes], and particles times steps per second of processor time.
+const WORK: WorkRate = WorkRate {
+    bytes: 350.0,
+    rate: 20e6,
+};
+/// Duration of a run in times of waves and of the expected stop.
+const DURATION: [f64; 2] = [3.0, 1.0];
 
 /// Two-dimensional lattice of bonded particles.
 #[derive(Debug, Clone, Copy)]
@@ -96,8 +107,10 @@ impl Model for Particles {
         true
     }
 
-    fn memory(&self, scenario: &Scenario) -> f64 {
-        setup::memory(scenario)
+    fn estimate(&self, scenario: &Scenario) -> Estimate {
+        let (time_step, limits) = setup::expected(scenario);
+        let end = ExpectedTimes::of(scenario).weighted(DURATION);
+        Estimate::of_time(WORK.of(particles(scenario)), (end, time_step), limits)
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
@@ -112,6 +125,6 @@ impl Model for Particles {
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        run::ParticlesRun::new(scenario)?.run(control)
+        run::ParticlesRun::new(scenario, control)?.run(control)
     }
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::{AxisymmetricAnswer, MODEL, answer, seconds};
 use crate::{
     Error, Refusal, Scenario,
-    model::{self, memory},
+    model::{self, memory, time_in_words},
 };
 
 /// Meshes of an axisymmetric answer.
@@ -71,7 +71,7 @@ pub fn plan(
     model::applicability(axi, scenario)?;
     let all = reference.cells();
     // The meshes are run side by side.
-    let memory = all.map(|cells| axi.memory(&on_cells(scenario, cells)));
+    let memory = all.map(|cells| axi.estimate(&on_cells(scenario, cells)).memory);
     if let Some(refusal) = memory::refusal(memory.iter().sum()) {
         return Err(refusal);
     }
@@ -87,7 +87,7 @@ pub fn plan(
         });
     }
     let [coarser @ .., finest] = &all;
-    let expected = |seconds: f64| format!("about {} of processor time", in_words(seconds));
+    let expected = |seconds: f64| format!("about {} of processor time", time_in_words(seconds));
     if within(cost(coarser)) {
         return Ok(Plan {
             reference,
@@ -106,15 +106,6 @@ pub(super) fn on_cells(scenario: &Scenario, cells_per_radius: u32) -> Scenario {
     let mut scenario = scenario.clone();
     scenario.options.axi.cells_per_radius = Some(cells_per_radius);
     scenario
-}
-
-/// A time as `90 s`, `5 min` or `2 h`.
-fn in_words(seconds: f64) -> String {
-    match seconds {
-        ..120.0 => format!("{seconds:.0} s"),
-        ..7200.0 => format!("{:.0} min", seconds / 60.0),
-        _ => format!("{:.0} h", seconds / 3600.0),
-    }
 }
 
 /// Axisymmetric answer that a study asks for.

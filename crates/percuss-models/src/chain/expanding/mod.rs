@@ -52,6 +52,7 @@ use crate::{
     problem::RearFaceCondition,
     scenario::{Plate, TargetBody, modelled_thickness},
     solver::{
+        Control,
         archive::Archive,
         driver::Drive,
         interface::{Audit, Extremes, Retry, Solver, slowed},
@@ -200,8 +201,13 @@ impl<'a> Solver<'a> for Cavity<'a> {
         },
     };
 
-    fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
+    fn build(scenario: &'a Scenario, courant: f64, _: &mut Control<'_>) -> Result<Self, Error> {
         Self::new(scenario, courant)
+    }
+
+    fn size(&self) -> usize {
+        let options = &self.scenario.options.chain;
+        options.projectile_elements() + options.target_elements()
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {

@@ -21,6 +21,7 @@ use crate::{
     },
     outcome::{Outcome, RunResult, Termination},
     solver::{
+        Control,
         archive::Archive,
         driver::Drive,
         interface::{Audit, BalanceTolerance, Extremes, Retry, Solver},
@@ -357,8 +358,12 @@ impl<'a> Solver<'a> for Published<'a> {
         retry: Retry::Never,
     };
 
-    fn build(scenario: &'a Scenario, _: f64) -> Result<Self, Error> {
+    fn build(scenario: &'a Scenario, _: f64, _: &mut Control<'_>) -> Result<Self, Error> {
         Self::new(scenario)
+    }
+
+    fn size(&self) -> usize {
+        self.rod_velocity.len() + self.target_velocity.len()
     }
 
     fn courant(_: &Scenario) -> (Option<f64>, f64) {
