@@ -6,7 +6,7 @@ use std::{
     process::ExitCode,
 };
 
-use percuss::{Error, Subject};
+use percuss::{Error, Subject, input_file::shown};
 use percuss_report::ReportError;
 
 use crate::{
@@ -176,7 +176,7 @@ impl Failure {
             }
             Self::Report(error) => message(&error.to_string(), ""),
             Self::Write { path, reason, help } => {
-                let what = format!("cannot write `{}`: {reason}", path.display());
+                let what = format!("cannot write `{}`: {reason}", shown(path));
                 message(&what, help)
             }
             Self::Output(error) => message(&format!("cannot write the output: {error}"), ""),

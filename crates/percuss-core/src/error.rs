@@ -2,7 +2,7 @@
 
 use std::{fmt, io, ops::Range, path::PathBuf};
 
-use crate::Refusal;
+use crate::{Refusal, input_file::shown};
 
 /// Any failure of the library.
 #[derive(Debug, thiserror::Error)]
@@ -66,7 +66,7 @@ pub enum Error {
         remedy: String,
     },
     /// A file could not be read.
-    #[error("cannot read `{}`: {}", .path.display(), with_remedy(.reason, .remedy))]
+    #[error("cannot read `{}`: {}", shown(.path), with_remedy(.reason, .remedy))]
     Read {
         /// The file.
         path: PathBuf,
@@ -133,7 +133,7 @@ impl Error {
                 remedy,
                 ..
             } => (
-                format!("cannot read `{}`: {reason}", path.display()),
+                format!("cannot read `{}`: {reason}", shown(path)),
                 remedy.clone(),
             ),
             other => (other.to_string(), String::new()),

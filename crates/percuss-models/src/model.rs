@@ -15,6 +15,7 @@ use crate::{
     error::nearest,
     fdm::Fdm,
     particles::Particles,
+    units::shorten,
 };
 
 pub use choice::{ChosenModel, DEFAULT_MODEL, choose, default_model};
@@ -73,7 +74,7 @@ pub fn model(name: &str) -> Result<&'static dyn Model, Error> {
         .find(|model| model.name() == name)
         .copied()
         .ok_or_else(|| Error::UnknownModel {
-            name: name.to_owned(),
+            name: shorten(name),
             suggestion: nearest(name, MODELS.iter().map(|model| model.name())),
             known: MODELS.iter().map(|model| model.name()).collect(),
         })

@@ -44,7 +44,7 @@ fn estimated_steps_are_of_the_order_of_those_that_are_taken() {
 }
 
 const BRITTLE: &str = r#"
-    projectile = { material = "weldox-460-e", length = "20 mm", diameter = "6 mm", impact_velocity = "100 m/s", nose = "hemisphere" }
+    projectile = { material = "own", length = "20 mm", diameter = "6 mm", impact_velocity = "100 m/s", nose = "hemisphere" }
     target = { material = "own", thickness = "6 mm", back_face = "free" }
     materials.own = { name = "Glass", density = "2500 kg/m3", youngs_modulus = "70 GPa", poissons_ratio = 0.2, strength.elastic = {} }
 "#;
@@ -89,4 +89,40 @@ fn cost_follows_the_options() {
     ];
     assert!(usual.seconds < 60.0 && small.seconds > 100.0 * usual.seconds);
     assert!(late.steps < 2000.0, "{late:?}");
+}
+
+/// A history keeps no more of a fine mesh than pictures show, in every solver.
+#[test]
+fn profiles_of_fine_meshes_are_thinned_out() {
+    let case = |target: &str, scheme: &str| {
+        let fine = "projectile_elements = 3000, target_elements = 3000, max_steps = 300";
+        let text = format!(
+            "projectile = {{ material = 'copper', length = '20 mm', diameter = '10 mm', impact_velocity = '200 m/s' }}\n\
+             target = {{ material = 'aluminium-2024-t351', thickness = '{target}' }}\n\
+             chain = {{ {fine}{scheme} }}\nfdm = {{ {fine} }}\n"
+        );
+        case::load_str("fine", &text).unwrap()
+    };
+    let whole = case("50 mm", "");
+    let column = case("50 mm", ", target_resistance = 'column'");
+    let published = case("50 mm", ", scheme = 'published'");
+    for (name, scenario) in [
+        ("chain", &whole),
+        ("chain", &column),
+        ("chain", &published),
+        ("fdm", &whole),
+    ] {
+        let mut control = Control::recording();
+        let result = model::run(model::model(name).unwrap(), scenario, &mut control).unwrap();
+        let history = result.history.unwrap();
+        let most = history
+            .profiles
+            .iter()
+            .map(|profile| profile.elements.len())
+            .max();
+        assert!(
+            most.is_some_and(|most| (100..2100).contains(&most)),
+            "{name}: {most:?}"
+        );
+    }
 }

@@ -41,7 +41,7 @@ fn text(name: &str, n: u32) -> String {
             4 * n
         ),
         _ => format!(
-            "projectile = {{ material = 'weldox-460-e', length = '20 mm', diameter = '6 mm', impact_velocity = '10 m/s', nose = 'hemisphere' }}\n\
+            "projectile = {{ material = 'own', length = '20 mm', diameter = '6 mm', impact_velocity = '10 m/s', nose = 'hemisphere' }}\n\
              target = {{ material = 'own', thickness = '100 mm', back_face = 'free' }}\nparticles = {{ spacing = '{} um', width = '400 mm' }}\n\
              materials.own = {{ name = 'Glass', density = '2500 kg/m3', youngs_modulus = '70 GPa', poissons_ratio = 0.2, strength.elastic = {{}}, \
              fracture = {{ energy = '10 J/m2', tensile_strength = '30 MPa' }} }}\n",

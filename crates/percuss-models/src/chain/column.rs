@@ -4,7 +4,7 @@ use super::{end::Window, mesh, results::Results, solver::StepControl, state::Sta
 use crate::{
     Error, Scenario,
     error::NumericalError,
-    history::{Profile, Sample},
+    history::{PROFILE_ELEMENTS, Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
     options::{ChainOptions, ErosionCriterion, ErosionStrain},
     outcome::{Outcome, RunResult, Termination},
@@ -25,8 +25,6 @@ const SMALLEST_COURANT: f64 = 0.05;
 pub(super) const AUDIT_INTERVAL: u64 = 128;
 /// Section of the first time step below which a run would never end.
 const COLLAPSED_STEP: f64 = 1e-4;
-/// Most elements in a profile: a finer mesh than a picture can show is thinned out.
-const PROFILE_ELEMENTS: usize = 400;
 
 /// Tolerances of the balances of the chain.
 pub(super) const TOLERANCE: BalanceTolerance = BalanceTolerance {

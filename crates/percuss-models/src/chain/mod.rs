@@ -92,6 +92,8 @@ const WORK: WorkRate = WorkRate {
 };
 /// Duration of a run in times of waves and of the expected stop: that of 80 % of random cases within a factor of four.
 const DURATION: [f64; 2] = [3.0, 0.25];
+/// First time step of a run over its mean: elements shorten, and steps with them.
+const SHORTENING: f64 = 3.0;
 
 /// The 1-D discrete element model.
 #[derive(Debug, Clone, Copy)]
@@ -152,7 +154,7 @@ impl Model for Chain {
     fn estimate(&self, scenario: &Scenario) -> Estimate {
         let options = &scenario.options.chain;
         let (rod, target) = (options.projectile_elements(), options.target_elements());
-        let time_step = options.courant() * element_time(scenario, (rod, target));
+        let time_step = options.courant() * element_time(scenario, (rod, target)) / SHORTENING;
         let end = ExpectedTimes::of(scenario).weighted(DURATION);
         let limits = Limits::new(scenario, options.end_time, options.max_steps());
         Estimate::of_time(WORK.of((rod + target) as f64), (end, time_step), limits)

@@ -26,22 +26,16 @@ use crate::{
     Error, Refusal, Scenario,
     outcome::{BandQuantity, RunResult},
     regime::{ProjectileRegime, TargetKind},
-    solver::{
-        Control, CostClass, Estimate, Model,
-        estimate::{ExpectedTimes, WorkRate},
-    },
+    solver::{Control, CostClass, Estimate, Model, estimate::WorkRate},
     units::Length,
     validity::ValidityDomain,
 };
 
-/// Memory of a particle with the fields that show it [bytes], and particles times steps per second of processor time.
+/// Memory of a particle with the fields that show it [bytes], twice as much where particles are moved, and particles times steps per second of processor time.
 const WORK: WorkRate = WorkRate {
     bytes: 350.0,
     rate: 20e6,
 };
-/// Duration of a run in times of waves and of the expected stop.
-const DURATION: [f64; 2] = [3.0, 1.0];
-
 /// Two-dimensional lattice of bonded particles.
 #[derive(Debug, Clone, Copy)]
 pub struct Particles;
@@ -108,9 +102,12 @@ impl Model for Particles {
     }
 
     fn estimate(&self, scenario: &Scenario) -> Estimate {
-        let (time_step, limits) = setup::expected(scenario);
-        let end = ExpectedTimes::of(scenario).weighted(DURATION);
-        Estimate::of_time(WORK.of(particles(scenario)), (end, time_step), limits)
+        let (time_step, end, limits) = setup::expected(scenario);
+        let mut work = WORK.of(particles(scenario));
+        if has_seeds(scenario) {
+            work.bytes *= 2.0;
+        }
+        Estimate::of_time(work, (end, time_step), limits)
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {

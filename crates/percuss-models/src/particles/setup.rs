@@ -20,6 +20,8 @@ use crate::{
 
 /// Ways of a longitudinal wave across a body that breaks, after which its run ends where the case gives no time.
 const WAYS: f64 = 10.0;
+/// Ways along a strip on a wall, for the estimate of its run.
+const WAYS_ON_WALL: f64 = 8.0;
 /// Spacings across the thinner of diameter and thickness, unless the case gives a spacing.
 const SPACINGS: f64 = 10.0;
 /// Width of a target in diameters of the projectile and in thicknesses, unless the case gives it.
@@ -149,15 +151,17 @@ impl Extent {
     }
 }
 
-/// Time step [s] and limits of a run before it starts.
-pub(super) fn expected(scenario: &Scenario) -> (f64, Limits) {
+/// Time step [s], expected duration [s] and limits of a run before it starts.
+pub(super) fn expected(scenario: &Scenario) -> (f64, f64, Limits) {
     let options = &scenario.options.particles;
     let lattice = solid(scenario).lattice(options.space(), extent(scenario).spacing());
     let time_step = options.courant() * 2.0 / lattice.largest_frequency();
-    (
-        time_step,
-        limits(scenario, &lattice, toughness(scenario).is_some()),
-    )
+    let end = match layer(scenario) {
+        Some(_) => time_of_cracks(scenario, &lattice),
+        None => WAYS_ON_WALL * extent(scenario).length / lattice.wave_speed,
+    };
+    let breaks = toughness(scenario).is_some();
+    (time_step, end, limits(scenario, &lattice, breaks))
 }
 
 /// Limits of a run, whose bonds break or not.

@@ -55,6 +55,7 @@ use crate::{
         Control,
         archive::Archive,
         driver::Drive,
+        frames::Fields,
         interface::{Audit, Extremes, Retry, Solver, slowed},
         limits::Limits,
         monitor::{Clock, Probe, RunMonitor},
@@ -271,7 +272,11 @@ impl<'a> Solver<'a> for Cavity<'a> {
     }
 
     fn profile(&self) -> Profile {
-        results::profile(&self.state)
+        results::profile(&self.state).thinned()
+    }
+
+    fn fields(&self) -> Fields<'_> {
+        Fields::Elements(results::profile(&self.state).elements)
     }
 
     fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {

@@ -24,6 +24,7 @@ use crate::{
         Control,
         archive::Archive,
         driver::Drive,
+        frames::Fields,
         interface::{Audit, BalanceTolerance, Extremes, Retry, Solver},
         limits::Limits,
         monitor::{Clock, Probe, RunMonitor},
@@ -437,7 +438,11 @@ impl<'a> Solver<'a> for Published<'a> {
     }
 
     fn profile(&self) -> Profile {
-        self.state_in_springs()
+        self.state_in_springs().thinned()
+    }
+
+    fn fields(&self) -> Fields<'_> {
+        Fields::Elements(self.state_in_springs().elements)
     }
 
     fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
