@@ -75,7 +75,7 @@ fn attack(target: &Target) {
     let mut draw = Draw(from_environment("PERCUSS_SEED", 1));
     let mut ends: BTreeMap<&str, u64> = BTreeMap::new();
     let mut failures = Vec::new();
-    for number in 0..from_environment("PERCUSS_FUZZ", target.part(INPUTS)) {
+    for number in 0..from_environment("PERCUSS_FUZZ", INPUTS) {
         let bytes = mutate::mutated(&mut draw, &target.seeds);
         match tried(target, &bytes) {
             Ok(end) => *ends.entry(end).or_default() += 1,

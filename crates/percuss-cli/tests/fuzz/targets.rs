@@ -36,27 +36,23 @@ const PATIENCE: Duration = Duration::from_secs(2);
 /// End of an input: its kind, or the message of an error.
 type End = Result<&'static str, String>;
 
+/// What an input is given to.
+type Attempt = Box<dyn Fn(&[u8]) -> End>;
+
 /// A kind of input.
 pub struct Target {
     pub kind: &'static str,
     /// Valid inputs to start from.
     pub seeds: Vec<String>,
-    pub run: Box<dyn Fn(&[u8]) -> End>,
-    slow: bool,
+    pub run: Attempt,
 }
 
 impl Target {
-    /// Inputs of a usual run: fewer of what takes long.
-    pub fn part(&self, whole: u64) -> u64 {
-        if self.slow { whole / 10 } else { whole }
-    }
-
     fn new(kind: &'static str, seeds: Vec<String>, run: impl Fn(&[u8]) -> End + 'static) -> Self {
         Self {
             kind,
             seeds,
             run: Box::new(run),
-            slow: false,
         }
     }
 
