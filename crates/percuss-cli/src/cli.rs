@@ -8,8 +8,6 @@ use clap::{
     error::{ContextKind, ContextValue},
 };
 
-use percuss::units::shorten;
-
 use crate::{
     commands::{
         Benchmark, Calibrate, Compare, Completions, Converge, Limit, Man, Materials, Models, New,
@@ -88,7 +86,6 @@ impl Cli {
     /// Those of the parser.
     pub fn parse_line(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
         Self::try_parse_from(words).map_err(|mut error| {
-            shorten_context(&mut error);
             let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else {
                 return error;
             };
@@ -99,26 +96,6 @@ impl Cli {
             }
             error
         })
-    }
-}
-
-/// Shortens long words of the command line that a message would quote.
-fn shorten_context(error: &mut clap::Error) {
-    const LONGEST_WORD: usize = 200;
-    const QUOTED: [ContextKind; 3] = [
-        ContextKind::InvalidArg,
-        ContextKind::InvalidValue,
-        ContextKind::InvalidSubcommand,
-    ];
-    for kind in QUOTED {
-        if let Some(ContextValue::String(word)) = error.get(kind)
-            && word.chars().count() > LONGEST_WORD
-        {
-            let word = shorten(word);
-            error.insert(kind, ContextValue::String(word));
-            // The advice quotes it too.
-            error.remove(ContextKind::Suggested);
-        }
     }
 }
 

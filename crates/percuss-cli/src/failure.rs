@@ -6,7 +6,10 @@ use std::{
     process::ExitCode,
 };
 
-use percuss::{Error, Subject, input_file::shown};
+use percuss::{
+    Error, Subject,
+    quote::{shorten_words, shown},
+};
 use percuss_report::ReportError;
 
 use crate::{
@@ -213,7 +216,7 @@ impl Failure {
                 message: what,
                 help,
             } => message(what, help),
-            Self::CommandLine(error) => error.render().to_string(),
+            Self::CommandLine(error) => shorten_words(&error.render().to_string()),
         }
     }
 }

@@ -53,17 +53,6 @@ fn too_large(limit: u64) -> io::Error {
     io::Error::new(ErrorKind::FileTooLarge, reason)
 }
 
-/// A path in a message: a long one without its middle.
-pub fn shown(path: &Path) -> String {
-    const MOST: usize = 300;
-    let whole: Vec<char> = path.display().to_string().chars().collect();
-    if whole.len() <= MOST {
-        return whole.into_iter().collect();
-    }
-    let (start, end) = (&whole[..MOST / 2], &whole[whole.len() - MOST / 2..]);
-    start.iter().chain(&['…']).chain(end).collect()
-}
-
 /// A size in bytes as `1 MiB` or `1.5 GiB`.
 pub fn size(bytes: u64) -> String {
     let units = [(1_u64 << 30, "GiB"), (1 << 20, "MiB"), (1 << 10, "KiB")];

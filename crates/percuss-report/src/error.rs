@@ -2,7 +2,7 @@
 
 use std::{io, path::PathBuf};
 
-use percuss::{history::History, input_file::shown, outcome::RunResult};
+use percuss::{history::History, outcome::RunResult, quote::shown};
 
 /// Any failure of this crate.
 #[derive(Debug, thiserror::Error)]

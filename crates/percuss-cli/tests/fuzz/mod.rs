@@ -22,7 +22,7 @@ const INPUTS: u64 = 2000;
 /// Longest time of an input.
 const LONGEST: Duration = Duration::from_secs(30);
 /// Longest message of an error [bytes].
-const LONGEST_MESSAGE: usize = 4000;
+const LONGEST_MESSAGE: usize = 6000;
 
 fn from_environment(name: &str, default: u64) -> u64 {
     std::env::var(name).map_or(default, |text| text.parse().unwrap())
@@ -119,9 +119,9 @@ macro_rules! fuzz {
             #[test]
             fn $name() {
                 let target = targets(stringify!($name));
-                for seed in &target.seeds {
-                    tried(&target, seed.as_bytes()).unwrap();
-                }
+                let ends = target.seeds.iter().map(|seed| tried(&target, seed.as_bytes()).unwrap());
+                let valid = ends.filter(|end| *end != "refused").count();
+                assert!(valid > 0 || target.kind == "checkpoint", "no seed is valid");
                 replay(&target);
                 attack(&target);
             }

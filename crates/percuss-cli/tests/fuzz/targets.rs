@@ -195,10 +195,7 @@ fn of_material_files() -> Target {
     let record = "[materials.own]\nname = 'Own'\ndensity = '8960 kg/m3'\nyoungs_modulus = '124 GPa'\npoissons_ratio = 0.34\n\
         yield_stress = '90 MPa'\nspecific_heat = '383 J/(kg K)'\nstrength = { johnson_cook = { a = '90 MPa', b = '292 MPa', n = 0.31, c = 0.025, m = 1.09, \
         melting_temperature = '1356 K', reference_strain_rate = '1 1/s' } }\n";
-    let mut seeds: Vec<String> =
-        crate::support::blocks(include_str!("../../../../docs/materials.md"), "toml");
-    seeds.retain(|text| text.contains("[materials."));
-    seeds.push(record.to_owned());
+    let seeds = vec![record.to_owned()];
     Target::new("material_file", seeds, move |bytes| {
         fs::write(folder.path().join("own.toml"), bytes).unwrap();
         refused(case::load(folder.path().join("case.toml")))
@@ -212,9 +209,9 @@ fn sweeps() -> Vec<String> {
     sweeps
 }
 
-const SWEEP: &str = "base = 'case.toml'\nsamples = 100\ndesign = 'sobol'\n[[parameter]]\nkey = 'projectile.impact_velocity'\n\
+const SWEEP: &str = "base = 'case.toml'\nmodel = 'crater_energy'\nsamples = 100\ndesign = 'sobol'\n[[parameter]]\nkey = 'projectile.impact_velocity'\n\
     uniform = { from = '100 m/s', to = '300 m/s' }\n[[parameter]]\nkey = 'projectile.length'\nnormal = { mean = '10 mm', standard_deviation = '1 mm' }\n";
-const GRID: &str = "base = 'case.toml'\n[[parameter]]\nkey = 'projectile.impact_velocity'\nlinear = { from = '100 m/s', to = '300 m/s', count = 3 }\n\
+const GRID: &str = "base = 'case.toml'\nmodel = 'crater_energy'\n[[parameter]]\nkey = 'projectile.impact_velocity'\nlinear = { from = '100 m/s', to = '300 m/s', count = 3 }\n\
     [[parameter]]\nkey = 'target.thickness'\nlog = { from = '10 mm', to = '30 mm', count = 4 }\n";
 
 /// A sweep that can be read gives runs at its ends and in its middle.
@@ -287,14 +284,11 @@ fn decks() -> Vec<String> {
     vec![DECK.to_owned(), SHORT_DECK.to_owned()]
 }
 
-/// A deck that is read is written and read again.
+/// A deck in every system of units: in one of them its numbers are those of a metal.
 fn deck(text: &str) -> End {
-    for units in UnitSystem::ALL {
-        if let Err(error) = lsdyna::read("deck.k", text, units) {
-            refused::<()>(Err(error))?;
-        }
-    }
-    Ok("read")
+    let read = UnitSystem::ALL.map(|units| refused(lsdyna::read("deck.k", text, units)));
+    let best = read.iter().position(Result::is_ok).unwrap_or(0);
+    read[best].clone()
 }
 
 /// Keeps one checkpoint.
