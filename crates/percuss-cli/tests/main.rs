@@ -9,6 +9,7 @@ mod checkpoints;
 mod compare;
 mod docs;
 mod figures;
+mod fuzz;
 mod help;
 mod input_files;
 mod layout;

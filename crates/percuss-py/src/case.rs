@@ -5,7 +5,7 @@ use std::{
     sync::Arc,
 };
 
-use percuss::{Scenario, case::Document};
+use percuss::{Error, Scenario, case::Document, model};
 use pyo3::{
     prelude::*,
     types::{PyDict, PyType},
@@ -83,6 +83,16 @@ impl Case {
     #[getter]
     fn folder(&self) -> PathBuf {
         self.document.folder().unwrap_or(Path::new("")).to_owned()
+    }
+
+    /// Estimated cost of a run: memory [bytes], time steps and processor time [s].
+    fn estimate(&self, py: Python<'_>, model: Option<&str>) -> PyResult<(f64, f64, f64)> {
+        let failed = |error| raise(py, error);
+        let model = model::choose(model, &self.scenario).map_err(failed)?.model;
+        model::applicability(model, &self.scenario)
+            .map_err(|refusal| failed(Error::not_applicable(model.name(), refusal)))?;
+        let cost = model.estimate(&self.scenario);
+        Ok((cost.memory, cost.steps, cost.seconds))
     }
 
     /// The file; `None` for a case that comes from none.

@@ -11,7 +11,7 @@ from typing import Any
 import numpy
 import percuss
 import pytest
-from conftest import CASES, Program
+from conftest import CASES, ROOT, Program
 
 COPPER = {"material": "copper", "length": "12.74 mm", "diameter": "4.8 mm", "impact_velocity": "230 m/s"}
 PLATE = {"material": "aluminium-2024-t351", "thickness": "25 mm"}
@@ -138,3 +138,16 @@ def test_what_holds_itself_or_is_too_deep_is_refused() -> None:
     assert not Path("nowhere").exists()
     with pytest.raises(ValueError, match="more than 1000000 values in all"):
         percuss.Case(projectile=wide, target=PLATE)
+
+
+def test_the_cost_of_a_run_is_estimated() -> None:
+    case = percuss.load(ROOT / "cases/paper-table1/scenario.toml")
+    formula = case.estimate("crater_energy")
+    assert formula == {"memory_bytes": 0.0, "steps": 0.0, "seconds": 0.0}
+    usual = case.estimate()
+    steps = percuss.run(case).steps
+    assert usual["steps"] / 6 < steps < usual["steps"] * 6
+    fine = case.replace({"chain.projectile_elements": 100_000, "chain.target_elements": 100_000})
+    assert fine.estimate("chain")["seconds"] > 1000 and fine.estimate("chain")["memory_bytes"] > 1e8
+    with pytest.raises(percuss.NotApplicableError, match="memory"):
+        case.replace({"axi.cells_per_radius": 1000}).estimate("axi")

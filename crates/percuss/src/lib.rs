@@ -24,8 +24,8 @@
 #[doc(inline)]
 pub use percuss_core::{
     Error, InputError, NumericalError, Refusal, Scenario, Subject, check, document, fragments,
-    history, input_file, ledger, material, options, outcome, power, problem, regime, resistance,
-    richardson, scenario, shapes, solver,
+    history, input_file, ledger, material, options, outcome, power, problem, quote, regime,
+    resistance, richardson, scenario, shapes, solver,
     solver::{checkpoint, frames},
     statistics, units, validity,
 };

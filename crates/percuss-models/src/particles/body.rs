@@ -9,6 +9,7 @@ use super::{
     lattice::{DIRECTIONS, Lattice, ROW},
     packing::{Packing, facet_weight},
 };
+use crate::{Error, solver::Control};
 
 /// Displacements [m] and rotations of a row. A place before the first particle and places behind the last one stay at rest.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -128,41 +129,84 @@ fn stride(particles: usize) -> usize {
 
 impl Body {
     /// A strip of rows along the struck face, symmetric about `x = 0` but for its packing, with its first row at a depth [m].
-    pub(super) fn strip(lattice: Lattice, rows: Rows, depth: f64, packing: Packing) -> Self {
-        let columns = |row: usize| rows.particles - row % 2;
-        Self::of_particles(lattice, rows, depth, packing, |row, column| {
-            column < columns(row)
-        })
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(super) fn strip(
+        lattice: Lattice,
+        rows: Rows,
+        depth: f64,
+        packing: Packing,
+        control: &mut Control<'_>,
+    ) -> Result<Self, Error> {
+        let is_there = |row: usize, column: usize| column < rows.particles - row % 2;
+        Self::of_particles(lattice, rows, depth, packing, is_there, control)
     }
 
     /// A disc of the diameter of all rows, which touches the struck face.
-    pub(super) fn disc(lattice: Lattice, rows: Rows, packing: Packing) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(super) fn disc(
+        lattice: Lattice,
+        rows: Rows,
+        packing: Packing,
+        control: &mut Control<'_>,
+    ) -> Result<Self, Error> {
         let radius = 0.5 * (rows.count as f64 - 1.0) * ROW * lattice.spacing;
         let middle = 0.5 * (rows.particles as f64 - 1.0);
-        let mut disc = Self::of_particles(lattice, rows, 0.0, packing, |row, column| {
+        let is_there = |row: usize, column: usize| {
             let across = (column as f64 + 0.5 * (row % 2) as f64 - middle) * lattice.spacing;
             let along = row as f64 * ROW * lattice.spacing - radius;
             let is_inside = across * across + along * along <= radius * radius * (1.0 + 1e-9);
             is_inside && column < rows.particles - row % 2
-        });
+        };
+        let mut disc = Self::of_particles(lattice, rows, 0.0, packing, is_there, control)?;
         // A particle alone at the rim belongs to no triangle: the first row that is there touches.
         let top = disc
             .particles()
             .map(|(row, place)| disc.reference(row, place)[1]);
         disc.origin[1] = -top.fold(f64::INFINITY, f64::min).min(radius);
-        disc
+        Ok(disc)
     }
 
     /// A body of the triangles of which all three particles are there.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
     pub(super) fn of_particles(
         lattice: Lattice,
         rows: Rows,
         depth: f64,
         packing: Packing,
         is_there: impl Fn(usize, usize) -> bool,
-    ) -> Self {
+        control: &mut Control<'_>,
+    ) -> Result<Self, Error> {
         let stride = stride(rows.particles);
         let zeros = || vec![0.0; stride];
+        let (mut made, mut state, mut motion) = (Vec::new(), Vec::new(), Vec::new());
+        control.set_up(0..rows.count, stride, |_| {
+            made.push(RowMake {
+                mass: zeros(),
+                inverse_mass: zeros(),
+                inverse_inertia: zeros(),
+                weights: [zeros(), zeros(), zeros()],
+                ..RowMake::default()
+            });
+            state.push(RowState {
+                x: zeros(),
+                z: zeros(),
+                cosine: vec![1.0; stride],
+                sine: zeros(),
+                damage: Damage::default(),
+                lost: 0.0,
+            });
+            motion.push(RowMotion {
+                x: zeros(),
+                z: zeros(),
+                spin: zeros(),
+            });
+        })?;
         let mut body = Self {
             lattice,
             origin: [
@@ -170,62 +214,39 @@ impl Body {
                 depth,
             ],
             stride,
-            rows: (0..rows.count)
-                .map(|_| RowMake {
-                    mass: zeros(),
-                    inverse_mass: zeros(),
-                    inverse_inertia: zeros(),
-                    weights: [zeros(), zeros(), zeros()],
-                    ..RowMake::default()
-                })
-                .collect(),
-            state: vec![
-                RowState {
-                    x: zeros(),
-                    z: zeros(),
-                    cosine: vec![1.0; stride],
-                    sine: zeros(),
-                    damage: Damage::default(),
-                    lost: 0.0,
-                };
-                rows.count
-            ],
-            motion: vec![
-                RowMotion {
-                    x: zeros(),
-                    z: zeros(),
-                    spin: zeros(),
-                };
-                rows.count
-            ],
+            rows: made,
+            state,
+            motion,
             next: Vec::new(),
             held: None,
             area: 0.0,
             softening: None,
         };
-        body.next.clone_from(&body.state);
+        let mut next = Vec::with_capacity(rows.count);
+        control.set_up(&body.state, stride, |row| next.push(row.clone()))?;
+        body.next = next;
         let at = |row: usize, place: usize| {
             (1..=rows.particles).contains(&place) && is_there(row, place - 1)
         };
         if let Packing::Irregular(moved) = packing {
             let spacing = lattice.spacing;
-            for row in 0..rows.count {
+            control.set_up(0..rows.count, stride, |row| {
                 let of = |place: usize| match at(row, place) {
                     true => moved.shift(spacing, rows, (row, place - 1)),
                     false => [0.0; 2],
                 };
                 let shifts: Vec<[f64; 2]> = (0..stride).map(of).collect();
                 body.rows[row].shift = [0, 1].map(|axis| shifts.iter().map(|s| s[axis]).collect());
-            }
-            body.measure_bonds();
+            })?;
+            control.set_up(0..rows.count, stride, |row| body.measure_bonds(row))?;
         }
-        for row in 0..rows.count.saturating_sub(1) {
+        control.set_up(0..rows.count.saturating_sub(1), stride, |row| {
             for place in 1..stride - 1 {
                 body.add_triangles(row, place, &at);
             }
-        }
+        })?;
         body.finish();
-        body
+        Ok(body)
     }
 
     /// The two triangles on the side of the next row of the bond that starts at a place: both share a particle and its bond to the right.
@@ -276,21 +297,19 @@ impl Body {
         0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
     }
 
-    /// Directions and lengths of all bonds between moved particles.
-    fn measure_bonds(&mut self) {
-        for row in 0..self.rows.len() {
-            let rests = [0, 1, 2].map(|kind| {
-                let mut rests = Rests::default();
-                for place in 0..self.stride {
-                    let (direction, length) = self.measured(row, place, kind);
-                    rests.x.push(direction[0]);
-                    rests.z.push(direction[1]);
-                    rests.length.push(length);
-                }
-                rests
-            });
-            self.rows[row].rests = rests;
-        }
+    /// Directions and lengths of the bonds of a row between moved particles.
+    fn measure_bonds(&mut self, row: usize) {
+        let rests = [0, 1, 2].map(|kind| {
+            let mut rests = Rests::default();
+            for place in 0..self.stride {
+                let (direction, length) = self.measured(row, place, kind);
+                rests.x.push(direction[0]);
+                rests.z.push(direction[1]);
+                rests.length.push(length);
+            }
+            rests
+        });
+        self.rows[row].rests = rests;
     }
 
     fn measured(&self, row: usize, place: usize, kind: usize) -> ([f64; 2], f64) {
@@ -307,11 +326,17 @@ impl Body {
     }
 
     /// Lets bonds fail.
-    pub(super) fn soften(&mut self, softening: Softening) {
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(super) fn soften(
+        &mut self,
+        softening: Softening,
+        control: &mut Control<'_>,
+    ) -> Result<(), Error> {
         self.softening = Some(softening);
-        for state in self.state.iter_mut().chain(&mut self.next) {
-            state.damage = Damage::new(self.stride);
-        }
+        let (stride, rows) = (self.stride, self.state.iter_mut().chain(&mut self.next));
+        control.set_up(rows, stride, |state| state.damage = Damage::new(stride))
     }
 
     /// Holds the last row that has particles, as far as a distance from the axis [m].

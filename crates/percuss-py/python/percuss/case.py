@@ -118,6 +118,27 @@ class Case:
         """The file; ``None`` for a case that comes from none."""
         return None if self._native.path is None else Path(self._native.path)
 
+    def estimate(self, model: str | None = None) -> dict[str, float]:
+        """Estimated cost of a run, before anything is computed.
+
+        Parameters
+        ----------
+        model : str, optional
+            Name of the model, by default that of :func:`percuss.run`.
+
+        Returns
+        -------
+        dict
+            ``memory_bytes``, ``steps`` and ``seconds`` of processor time; 0 for a formula.
+
+        Raises
+        ------
+        NotApplicableError
+            Also for a run that would take more memory than the limit.
+        """
+        memory, steps, seconds = self._native.estimate(model)
+        return {"memory_bytes": memory, "steps": steps, "seconds": seconds}
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes a case file, which the program reads."""
         Path(path).write_text(self.text, encoding="utf-8")

@@ -178,11 +178,17 @@ fn depths(
     }
     let chart = LineChart::new(
         format!("depth-{}-on-{}-{length}", stem(projectile), stem(target)),
-        format!("{} on {}, L/D {length}", material(projectile), material(target)),
+        format!(
+            "{} on {}, L/D {length}",
+            material(projectile),
+            material(target)
+        ),
         Axis::new("Impact velocity (m/s)"),
         Axis::new("Depth of penetration (mm)").log(),
     )
-    .caption("candidates of smallest median error; bars: uncertainty of the reference due to its cells");
+    .caption(
+        "candidates of smallest median error; bars: uncertainty of the reference due to its cells",
+    );
     let chart = names.iter().enumerate().fold(chart, |chart, (i, name)| {
         let points = own
             .iter()

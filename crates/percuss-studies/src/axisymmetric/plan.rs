@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::{AxisymmetricAnswer, BUDGET, MODEL, answer, seconds};
 use crate::{
     Error, Refusal, Scenario,
-    model::{self, memory},
+    model::{self, memory, time_in_words},
 };
 
 /// Meshes of an axisymmetric answer.
@@ -71,7 +71,7 @@ pub fn plan(
     model::applicability(axi, scenario)?;
     let all = reference.cells();
     // The meshes are run side by side.
-    let memory = all.map(|cells| axi.memory(&on_cells(scenario, cells)));
+    let memory = all.map(|cells| axi.estimate(&on_cells(scenario, cells)).memory);
     if let Some(refusal) = memory::refusal(memory.iter().sum()) {
         return Err(refusal);
     }
@@ -116,14 +116,9 @@ pub(super) fn on_cells(scenario: &Scenario, cells_per_radius: u32) -> Scenario {
     scenario
 }
 
-/// An expected processor time as `90 s`, `5 min` or `2 h`.
+/// An expected processor time as `about 90 s of processor time`.
 fn in_words(seconds: f64) -> String {
-    let time = match seconds {
-        ..120.0 => format!("{seconds:.0} s"),
-        ..7200.0 => format!("{:.0} min", seconds / 60.0),
-        _ => format!("{:.0} h", seconds / 3600.0),
-    };
-    format!("about {time} of processor time")
+    format!("about {} of processor time", time_in_words(seconds))
 }
 
 /// Axisymmetric answer that a study asks for.

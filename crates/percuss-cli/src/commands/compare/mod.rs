@@ -18,11 +18,11 @@ use percuss::{
     axisymmetric::{ReferenceMeshes, Request},
     case,
     compare::{self, Comparison, Observer},
-    model::{self, CostClass, MODELS},
+    model::{self, CostClass, Estimate, MODELS},
 };
 
 use crate::{
-    by_models,
+    by_models, cost,
     failure::Failure,
     file_list::FileList,
     output,
@@ -110,7 +110,11 @@ struct ComparisonOutput {
 impl Compare {
     pub fn run(&self) -> Result<(), Failure> {
         let mut progress = Progress::new(!self.quiet);
-        let found = self.find(&VirtualFiles::default(), &mut progress.callback());
+        let found = self.find(
+            &VirtualFiles::default(),
+            &mut progress.callback(),
+            &|cost| cost::tell(cost, self.quiet),
+        );
         progress.finish();
         let found = found?;
         self.print(&found)?;
@@ -126,7 +130,7 @@ impl Compare {
         virtual_files: &VirtualFiles,
         on_progress: ProgressCallback<'_>,
     ) -> Result<Response, Failure> {
-        let found = self.find(virtual_files, on_progress)?;
+        let found = self.find(virtual_files, on_progress, &|_| ())?;
         Response::json_of(&found.comparison, found.files)
     }
 
@@ -134,11 +138,15 @@ impl Compare {
         &self,
         virtual_files: &VirtualFiles,
         on_progress: ProgressCallback<'_>,
+        tell: &dyn Fn(Estimate),
     ) -> Result<ComparisonOutput, Failure> {
         let document = virtual_files.read(&self.case)?;
         let scenario = case::scenario(&document)?;
         let speeds = self.speeds(&scenario)?;
         let folder = RunFolder::wanted(self.out.as_deref(), Some(&document))?;
+        let models = by_models::named(&self.model);
+        let of_models = models.iter().map(|model| cost::of_run(*model, &scenario));
+        tell(of_models.sum::<Estimate>().times(speeds.len() as f64));
         let comparison = self.compute(&scenario, &speeds, on_progress)?;
         let files = match folder {
             Some(folder) => folder.write_comparison(&scenario, &comparison)?,

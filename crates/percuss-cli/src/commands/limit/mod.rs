@@ -12,13 +12,13 @@ use percuss::{
     axisymmetric::{ReferenceMeshes, Request},
     case,
     limit::{self, LimitOutcome, Limits, Observer, Range, Search, Tolerance},
-    model::MODELS,
+    model::{Estimate, MODELS},
     v50::{self, Test, V50},
 };
 use serde::Serialize;
 
 use crate::{
-    by_models,
+    by_models, cost,
     failure::Failure,
     file_list::FileList,
     output,
@@ -27,6 +27,9 @@ use crate::{
     run_folder::RunFolder,
     shot_data::note_unread,
 };
+
+/// Runs of a search for a limit, for the estimate of its cost.
+const RUNS: f64 = 20.0;
 
 const LONG_ABOUT: &str = "\
 Find the ballistic limit of a case: the impact velocity above which the target
@@ -157,7 +160,11 @@ impl LimitOutput {
 impl Limit {
     pub fn run(&self) -> Result<(), Failure> {
         let mut progress = Progress::new(!self.quiet);
-        let found = self.find(&VirtualFiles::default(), &mut progress.callback());
+        let found = self.find(
+            &VirtualFiles::default(),
+            &mut progress.callback(),
+            &|cost| cost::tell(cost, self.quiet),
+        );
         progress.finish();
         let found = found?;
         self.print(&found)?;
@@ -175,7 +182,7 @@ impl Limit {
         virtual_files: &VirtualFiles,
         on_progress: ProgressCallback<'_>,
     ) -> Result<Response, Failure> {
-        let found = self.find(virtual_files, on_progress)?;
+        let found = self.find(virtual_files, on_progress, &|_| ())?;
         Response::json_of(&found.record(), found.files.clone())
     }
 
@@ -183,6 +190,7 @@ impl Limit {
         &self,
         virtual_files: &VirtualFiles,
         on_progress: ProgressCallback<'_>,
+        tell: &dyn Fn(Estimate),
     ) -> Result<LimitOutput, Failure> {
         let document = self.case.as_ref().map(|path| virtual_files.read(path));
         let document = document.transpose()?;
@@ -199,6 +207,9 @@ impl Limit {
         });
         let case = match scenario {
             Some(scenario) => {
+                let models = by_models::named(&self.model);
+                let of_models = models.iter().map(|model| cost::of_run(*model, &scenario));
+                tell(of_models.sum::<Estimate>().times(RUNS));
                 let limits = self.search(&scenario, on_progress)?;
                 Some((scenario, limits))
             }

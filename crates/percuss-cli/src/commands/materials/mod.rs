@@ -16,6 +16,7 @@ use percuss::{
     case,
     lsdyna::UnitSystem,
     material::{Filter, Library, Material, MaterialEntry, MaterialGroup},
+    units::shorten,
 };
 use serde::Serialize;
 
@@ -151,11 +152,12 @@ impl Materials {
     /// Why nothing is listed.
     fn nothing(&self, library: &Library, words: &str) -> Failure {
         let narrowed = self.group.is_some() || self.family.is_some() || self.hardness.is_some();
+        let asked = shorten(words);
         let message = match (words.trim().is_empty(), narrowed) {
             (true, _) => "no material fits --group, --family and --hardness".to_owned(),
-            (false, true) => format!("no material that the options leave has `{words}`"),
+            (false, true) => format!("no material that the options leave has `{asked}`"),
             (false, false) => format!(
-                "no material has `{words}` in its id, family, group, name, aliases or state"
+                "no material has `{asked}` in its id, family, group, name, aliases or state"
             ),
         };
         let near = match (narrowed, &self.family) {

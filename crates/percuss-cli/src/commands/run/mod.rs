@@ -20,7 +20,7 @@ use percuss_report::FieldQuantity;
 
 use self::{axisymmetric::Wanted, task::Task};
 use crate::{
-    diagnostic,
+    cost, diagnostic,
     failure::Failure,
     file_list::FileList,
     output,
@@ -164,6 +164,7 @@ impl Run {
             false => Arc::default(),
         };
         let mut task = Task::new(self, &VirtualFiles::default(), &stop, &say)?;
+        cost::tell(task.estimate(), self.quiet);
         let mut progress = Progress::new(!self.quiet);
         let run_output = task.compute(&mut progress.callback());
         progress.finish();

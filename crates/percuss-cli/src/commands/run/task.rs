@@ -11,7 +11,7 @@ use percuss::{
     Error, Scenario, case,
     checkpoint::Header,
     frames::Frame,
-    model::{self, ChosenModel, Control, Model},
+    model::{self, ChosenModel, Control, Estimate, Model},
     outcome::RunResult,
 };
 use percuss_report::{FieldQuantity, FieldSeries, FinalField};
@@ -22,6 +22,7 @@ use super::{
     seeds,
 };
 use crate::{
+    cost,
     failure::Failure,
     response::{ProgressCallback, VirtualFiles},
     run_folder::RunFolder,
@@ -106,6 +107,12 @@ impl<'a> Task<'a> {
     /// The case.
     pub fn scenario(&self) -> &Arc<Scenario> {
         &self.scenario
+    }
+
+    /// Estimated cost of the runs of the model.
+    pub fn estimate(&self) -> Estimate {
+        let runs = f64::from(self.options.seeds.unwrap_or(1));
+        cost::of_run(self.chosen.model, &self.scenario).times(runs)
     }
 
     /// Keeps the final fields of an axisymmetric answer, where there is a folder for them.

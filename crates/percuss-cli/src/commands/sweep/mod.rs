@@ -19,6 +19,7 @@ use percuss_report::sweep::{Manifest, Status, SweepFolder, merge, status};
 use serde::Serialize;
 
 use crate::{
+    cost,
     failure::Failure,
     output,
     progress::Progress,
@@ -162,6 +163,7 @@ impl Sweep {
         };
         let total = count(&mut (part - 1..sweep.blocks()).step_by(parts as usize));
         let due = count(&mut missing.iter().copied());
+        cost::tell(sweep.estimate(due), self.quiet);
         let state = Mutex::new(SweepProgress {
             progress: Progress::new(!self.quiet),
             outcomes: BTreeMap::new(),

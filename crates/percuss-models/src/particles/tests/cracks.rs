@@ -12,6 +12,7 @@ use crate::{
         lattice::ROW,
         packing::Packing,
     },
+    solver::Control,
 };
 
 const SPACE: Space = Space::PlaneStress;
@@ -28,7 +29,7 @@ fn brittle() -> Body {
 
 fn soften(body: &mut Body) {
     let law = Softening::new(&body.lattice, 20.0, 3.0, false);
-    body.soften(law);
+    body.soften(law, &mut Control::default()).unwrap();
 }
 
 /// A cut from face to face leaves two pieces, a shorter one leaves the body whole; a notch is no crack.
@@ -109,7 +110,7 @@ fn a_disc_has_the_mass_of_its_circle() {
             count: layers as usize + 1,
             particles: columns,
         };
-        let body = Body::disc(lattice, rows, Packing::Hexagonal);
+        let body = Body::disc(lattice, rows, Packing::Hexagonal, &mut Control::default()).unwrap();
         let exact = 0.25 * PI * diameter * diameter * 2500.0;
         let error = body.mass() / exact - 1.0;
         println!("disc of {layers} layers: mass {:+.2} %", 100.0 * error);
