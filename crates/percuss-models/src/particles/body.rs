@@ -122,12 +122,51 @@ pub(super) struct Rows {
     pub(super) particles: usize,
 }
 
+/// A straight slot with round ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Slot {
+    /// Ends of its middle line [m].
+    ends: [[f64; 2]; 2],
+    /// Half of its width [m].
+    half_width: f64,
+}
+
+impl Slot {
+    /// A slot of a width [m] from one place to its tip.
+    pub(super) fn new([from, tip]: [[f64; 2]; 2], width: f64) -> Self {
+        let half_width = 0.5 * width;
+        let way = [tip[0] - from[0], tip[1] - from[1]];
+        // The round end touches the tip.
+        let part = (half_width / way[0].hypot(way[1])).min(1.0);
+        let end = [tip[0] - part * way[0], tip[1] - part * way[1]];
+        Self {
+            ends: [from, end],
+            half_width,
+        }
+    }
+
+    fn holds(&self, place: [f64; 2]) -> bool {
+        let [from, end] = self.ends;
+        let (way, to) = (
+            [end[0] - from[0], end[1] - from[1]],
+            [place[0] - from[0], place[1] - from[1]],
+        );
+        let square = way[0] * way[0] + way[1] * way[1];
+        let part = match square > 0.0 {
+            true => ((way[0] * to[0] + way[1] * to[1]) / square).clamp(0.0, 1.0),
+            false => 0.0,
+        };
+        (to[0] - part * way[0]).hypot(to[1] - part * way[1]) < self.half_width
+    }
+}
+
 /// Places for so many particles in a row.
 fn stride(particles: usize) -> usize {
     2 + particles.next_multiple_of(crate::lanes::LANES)
 }
 
 impl Body {
+    #[cfg(test)]
     /// A strip of rows along the struck face, symmetric about `x = 0` but for its packing, with its first row at a depth [m].
     ///
     /// # Errors
@@ -139,7 +178,28 @@ impl Body {
         packing: Packing,
         control: &mut Control<'_>,
     ) -> Result<Self, Error> {
-        let is_there = |row: usize, column: usize| column < rows.particles - row % 2;
+        Self::slotted_strip(lattice, rows, depth, packing, &[], control)
+    }
+
+    /// A strip of rows along the struck face, symmetric about `x = 0` but for its packing and slots, with its first row at a depth [m].
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(super) fn slotted_strip(
+        lattice: Lattice,
+        rows: Rows,
+        depth: f64,
+        packing: Packing,
+        slots: &[Slot],
+        control: &mut Control<'_>,
+    ) -> Result<Self, Error> {
+        let middle = 0.5 * (rows.particles as f64 - 1.0);
+        let is_there = |row: usize, column: usize| {
+            let across = (column as f64 + 0.5 * (row % 2) as f64 - middle) * lattice.spacing;
+            let along = depth + row as f64 * ROW * lattice.spacing;
+            let in_slot = slots.iter().any(|slot| slot.holds([across, along]));
+            column < rows.particles - row % 2 && !in_slot
+        };
         Self::of_particles(lattice, rows, depth, packing, is_there, control)
     }
 

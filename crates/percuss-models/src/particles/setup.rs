@@ -1,7 +1,7 @@
 //! Bodies of a case: which one is a lattice, its rows and its memory.
 
 use super::{
-    body::{Body, Rows},
+    body::{Body, Rows, Slot},
     cracks::Notches,
     debris::ContactLaw,
     fracture::{self, LEAST_SOFTENING, Softening, Toughness},
@@ -257,9 +257,21 @@ fn notch_ends(scenario: &Scenario) -> Vec<[[f64; 2]; 2]> {
     notches.map(|notch| notch.ends()).collect()
 }
 
+/// The notches of a case that are slots.
+fn slots(scenario: &Scenario) -> Vec<Slot> {
+    let notches = scenario.options.particles.notches.iter().flatten();
+    notches
+        .filter_map(|notch| Some(Slot::new(notch.ends(), notch.width?.si())))
+        .collect()
+}
+
 /// The notches of a body that is built.
 pub(super) fn notches(scenario: &Scenario, body: &Body) -> Notches {
-    Notches::of(body, notch_ends(scenario))
+    let notches = scenario.options.particles.notches.iter().flatten();
+    let notches: Vec<_> = notches
+        .map(|notch| (notch.ends(), notch.width.is_some()))
+        .collect();
+    Notches::of(body, &notches)
 }
 
 /// The lattice at the moment of impact, and the rigid body that it meets.
@@ -282,7 +294,10 @@ pub(super) fn build(
     };
     let mut body = match is_disc(scenario) {
         true => Body::disc(lattice, rows, packing, control)?,
-        false => Body::strip(lattice, rows, extent.start, packing, control)?,
+        false => {
+            let slots = slots(scenario);
+            Body::slotted_strip(lattice, rows, extent.start, packing, &slots, control)?
+        }
     };
     if let (Some(toughness), Some(softenings)) =
         (toughness(scenario), softenings(scenario, &lattice))
