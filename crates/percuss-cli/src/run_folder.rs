@@ -122,7 +122,7 @@ impl RunFolder {
         self.put("compare.json", output::json(comparison)?.as_bytes())?;
         self.written
             .extend(percuss_report::write_comparison(&self.path, comparison)?);
-        if let Some(figure) = percuss_report::compare_figure(scenario, comparison) {
+        for figure in percuss_report::compare_figures(scenario, comparison) {
             self.written.extend(figure.write(&self.path)?);
         }
         Ok(self.written)

@@ -14,6 +14,7 @@ mod input_files;
 mod layout;
 mod limit;
 mod materials;
+mod measured_curves;
 mod models;
 mod modules;
 mod moved;

@@ -3,6 +3,7 @@
 //! Depend on `percuss`, which re-exports what users need.
 
 pub mod case;
+pub mod csv_table;
 pub mod inputs;
 pub mod lsdyna;
 

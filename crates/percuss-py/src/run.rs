@@ -81,7 +81,7 @@ pub fn run(
             })
         };
         let mut control = Control {
-            record,
+            record: record || !scenario.measured_curves.is_empty(),
             progress: Some(&mut on_progress),
             ..Control::default()
         };

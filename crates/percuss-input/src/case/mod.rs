@@ -7,6 +7,7 @@ mod fdm_options_tests;
 mod file;
 mod load;
 mod material_file;
+mod measured_curves;
 mod resolve;
 mod schema;
 mod self_contained;
@@ -31,7 +32,7 @@ pub use crate::{
         SmallStrainStiffness, TargetResistanceModel,
     },
     problem::{
-        EdgeSupport, Experiment, Extensions, Gauge, Layer, LayerInterface, Nose, Projectile,
-        RearFaceCondition, SourceKeys, Target, Thickness, Uncertainty,
+        EdgeSupport, Experiment, Extensions, Gauge, Layer, LayerInterface, MeasuredTable, Nose,
+        Projectile, RearFaceCondition, SourceKeys, Target, Thickness, Uncertainty,
     },
 };

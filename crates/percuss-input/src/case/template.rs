@@ -27,10 +27,11 @@ pub struct Template {
 impl Template {
     /// Reads a case, which has to be valid as it stands.
     pub fn of(document: &Document) -> Result<Self, Error> {
-        super::scenario(document)?;
+        load::scenario_of_models(document)?;
         let mut table: Table = document.parse()?;
-        // No run depends on what is uncertain.
+        // No run depends on what is uncertain or was measured.
         table.remove("uncertainty");
+        table.remove("measured_curves");
         let mut case: Case = document.parse()?;
         // Its own materials are among the numbers that can be changed: only those of other files are looked up beforehand.
         case.materials.clear();

@@ -1,5 +1,6 @@
 //! `percuss compare`: all models on one case.
 
+mod curves;
 mod head;
 mod messages;
 mod missing;
@@ -235,6 +236,7 @@ impl Compare {
                 1 => single::text(comparison),
                 _ => sweep::text(comparison),
             };
+            text += &curves::text(comparison);
             text += &quantities::elsewhere(comparison);
             text += &warnings::text(comparison);
             text += &missing::text(comparison);

@@ -181,9 +181,9 @@ impl Materials {
     }
 }
 
-/// A unit system of a deck, by its name.
-fn unit_system() -> impl TypedValueParser<Value = UnitSystem> {
-    let names = PossibleValuesParser::new(UnitSystem::NAMES);
+/// A unit system, by its name.
+pub(super) fn unit_system() -> impl TypedValueParser<Value = UnitSystem> {
+    let names = PossibleValuesParser::new(UnitSystem::all_names());
     names.try_map(|name| UnitSystem::named(&name).ok_or("it is no unit system"))
 }
 

@@ -134,7 +134,7 @@ impl<'a> Task<'a> {
             Some(fields) => fields.run(&self.chosen, &self.scenario, &mut report)?,
             None => {
                 let mut control = Control {
-                    record: self.folder.is_some(),
+                    record: self.folder.is_some() || !self.scenario.measured_curves.is_empty(),
                     progress: Some(&mut report),
                     ..Control::default()
                 };
