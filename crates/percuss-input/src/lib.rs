@@ -6,6 +6,7 @@ pub mod case;
 pub mod csv_table;
 pub mod inputs;
 pub mod lsdyna;
+pub mod material_tables;
 
 // What the input uses of the layers below.
 use percuss_core::{

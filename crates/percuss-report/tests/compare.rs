@@ -191,7 +191,7 @@ fn one_velocity_gives_one_row_per_model() {
 fn files_have_a_row_a_speed_and_model() {
     let (_, comparison) = comparison(CASE, &[500.0, 1000.0]);
     let folder = tempfile::tempdir().unwrap();
-    let [csv, parquet] = write_comparison(folder.path(), &comparison)
+    let [csv, parquet] = write_comparison(folder.path(), &comparison, None)
         .unwrap()
         .try_into()
         .unwrap();

@@ -30,7 +30,7 @@ pub use percuss_core::{
     statistics, units, validity,
 };
 #[doc(inline)]
-pub use percuss_input::{case, inputs, lsdyna};
+pub use percuss_input::{case, inputs, lsdyna, material_tables};
 #[doc(inline)]
 pub use percuss_models::{analytic, axi, chain, fdm, model, particles};
 #[doc(inline)]

@@ -187,6 +187,15 @@ impl UnitSystem {
         }
     }
 
+    /// Name of a column in its unit, and what its numbers are multiplied by; `None` for a column whose name ends with no unit, or with its
+    /// own.
+    pub fn column(&self, name: &str) -> Option<(String, f64)> {
+        let (quantity, from) = ResultUnit::split(name);
+        let to = self.unit(from);
+        let renamed = || format!("{quantity}{}", to.suffix);
+        (to != from).then(|| (renamed(), to.per_si / from.per_si))
+    }
+
     /// Unit of density [kg/m3].
     pub fn density(&self) -> f64 {
         self.mass / self.length.powi(3)
@@ -223,6 +232,23 @@ mod tests {
 
     fn of(name: &str) -> UnitSystem {
         UnitSystem::named(name).unwrap()
+    }
+
+    #[test]
+    fn columns_are_renamed_and_scaled() {
+        let inches = of("in-lb-s");
+        let (name, factor) = inches.column("depth_of_penetration_mm").unwrap();
+        assert_eq!(name, "depth_of_penetration_in");
+        near(factor * 25.4, 1.0);
+        for name in [
+            "energy_residual",
+            "target_temperature_k",
+            "outcome",
+            "density_kg_m3",
+        ] {
+            assert_eq!(inches.column(name), None, "{name}");
+        }
+        assert_eq!(of("SI").column("residual_velocity_m_s"), None);
     }
 
     #[test]

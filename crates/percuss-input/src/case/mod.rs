@@ -20,7 +20,7 @@ pub use load::{library, load, load_str, scenario};
 pub use material_file::{load_materials, materials_toml};
 pub use schema::schema;
 pub use self_contained::self_contained;
-pub use template::Template;
+pub use template::{ScenarioChange, Template};
 
 pub use crate::{
     check::limits::MAX_ELEMENTS,

@@ -23,8 +23,8 @@ class Case:
         Name of the case, which messages show instead of a file.
     **tables
         The tables and values of a case file: ``projectile``, ``target``, ``chain``, ``materials`` and so on. A quantity is a text
-        with its unit, such as ``"4.8 mm"``, or a number in SI units. ``None`` leaves a value out. Paths in ``material_files`` are
-        relative to the working directory.
+        with its unit, such as ``"4.8 mm"``, or a quantity of pint or astropy; a plain number is refused. ``None`` leaves a value out.
+        Paths in ``material_files`` and ``measured_curves`` are relative to the working directory.
 
     Raises
     ------
@@ -35,8 +35,8 @@ class Case:
     --------
     >>> import percuss
     >>> case = percuss.Case(
-    ...     projectile={"material": "copper", "length": "12.74 mm", "diameter": 4.8e-3, "impact_velocity": 230.0},
-    ...     target={"material": "aluminium-2024-t351", "thickness": 0.025},
+    ...     projectile={"material": "copper", "length": "12.74 mm", "diameter": "4.8 mm", "impact_velocity": "230 m/s"},
+    ...     target={"material": "aluminium-2024-t351", "thickness": "25 mm"},
     ... )
     >>> case.impact_velocity_m_s
     230.0

@@ -9,11 +9,10 @@ from . import _percuss
 from .command_line import CaseLike, Path, Speed, execute, several, speeds, with_unit
 from .case import Case, native
 from .errors import UsageError
+from .laws import StrengthLaw
 from .progress import Progress, watching
 from .results import Comparison, Convergence, Limits, RunResult, Validation
 
-#: Flow stress [Pa] from plastic strain, strain rate [1/s] and temperature [K].
-StrengthLaw: TypeAlias = Callable[[float, float, float], float]
 #: Pressure on the crater floor [Pa] from its depth [m] and the speed at which it advances [m/s].
 ResistanceLaw: TypeAlias = Callable[[float, float], float]
 

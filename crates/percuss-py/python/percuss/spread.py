@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from . import _percuss, study_plots
+from . import _percuss, laws, study_plots
 from .command_line import CaseLike, Path, Speed, execute, several, speeds
+from .errors import UsageError
+from .laws import StrengthLaw
 from .progress import Progress
 from .record import Record, Result, shown, table_html
 from .samples import Sample
@@ -137,6 +139,8 @@ def uncertainty(
     threads: int | None = None,
     out: Path | None = None,
     progress: Progress | bool | None = None,
+    projectile_law: StrengthLaw | None = None,
+    target_law: StrengthLaw | None = None,
 ) -> Uncertainty:
     """Says what the uncertainty of a case's numbers does to its results.
 
@@ -165,6 +169,9 @@ def uncertainty(
         Folder for a copy of the case, the numbers and the figures, as ``percuss uncertainty --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
         As in :func:`percuss.run`.
+    projectile_law, target_law : callable, optional
+        Strength laws in Python, as in :func:`percuss.run`, for every shot. An exception in a law ends the study. Not with ``out`` and
+        ``axisymmetric``.
 
     Returns
     -------
@@ -188,6 +195,9 @@ def uncertainty(
     >>> len(spread.draws)
     16
     """
+    own = laws.name(projectile_law, target_law)
+    if own and (out is not None or axisymmetric is not None):
+        raise UsageError("`out` and `axisymmetric` need laws of the library: leave them out, or add the law to the library")
     found = execute(
         "uncertainty",
         of=case,
@@ -201,5 +211,6 @@ def uncertainty(
         threads=threads,
         out=out,
         progress=progress,
+        laws=(projectile_law, target_law, own),
     )
     return Uncertainty(found)

@@ -7,10 +7,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
-from . import _percuss, cluster, plots
+from . import _percuss, cluster, laws, plots
 from .command_line import Path, answer, execute, several
 from .case import Case
 from .errors import UsageError
+from .laws import StrengthLaw
 from .progress import Progress, watching
 from .record import CommandRecord, Record, table_html
 
@@ -96,6 +97,8 @@ def sweep(
     threads: int | None = None,
     client: Client | None = None,
     progress: Progress | bool | None = None,
+    projectile_law: StrengthLaw | None = None,
+    target_law: StrengthLaw | None = None,
 ) -> SweepResult:
     """Computes a case many times with some of its numbers varied.
 
@@ -119,6 +122,9 @@ def sweep(
         A Dask cluster to compute on.
     progress : callable or bool, optional
         As in :func:`percuss.run`.
+    projectile_law, target_law : callable, optional
+        Strength laws in Python, as in :func:`percuss.run`, for every shot; threads take turns in them. A folder goes on with the same law
+        only. An exception in a law ends the sweep. Not on a cluster.
 
     Returns
     -------
@@ -150,8 +156,11 @@ def sweep(
     part, parts = shard
     if not 1 <= part <= parts:
         raise UsageError(f"shard {part}/{parts} does not exist: parts are counted from 1 to their number")
+    own = laws.name(projectile_law, target_law)
+    if own and client is not None:
+        raise UsageError("strength laws in Python are computed on this machine: leave out `client`, or add the law to the library")
     path = _written(sweep, FilePath(out)) if isinstance(sweep, Mapping) else FilePath(sweep)
-    native = _percuss.Sweep(path)
+    native = _percuss.Sweep(path, projectile_law, target_law, own)
     folder = _percuss.SweepFolder(out, native, resume)
     try:
         with watching(progress) as hear:

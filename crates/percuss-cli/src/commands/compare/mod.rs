@@ -20,6 +20,7 @@ use percuss::{
     case,
     compare::{self, Comparison, Observer},
     model::{self, CostClass, MODELS},
+    units::UnitSystem,
 };
 
 use crate::{
@@ -32,6 +33,7 @@ use crate::{
     run_folder::RunFolder,
     speeds::Speeds,
     terminal,
+    unit_system::unit_system,
 };
 
 const LONG_ABOUT: &str = "\
@@ -96,6 +98,9 @@ pub struct Compare {
     /// Write numbers and figure to a folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Unit system of compare.csv and compare.parquet [default: mm, m/s]
+    #[arg(long, value_name = "SYSTEM", requires = "out", value_parser = unit_system())]
+    units: Option<UnitSystem>,
     /// No table and no progress: lines of NAME=VALUE pairs
     #[arg(long, short)]
     quiet: bool,
@@ -142,7 +147,7 @@ impl Compare {
         let folder = RunFolder::wanted(self.out.as_deref(), Some(&document))?;
         let comparison = self.compute(&scenario, &speeds, on_progress)?;
         let files = match folder {
-            Some(folder) => folder.write_comparison(&scenario, &comparison)?,
+            Some(folder) => folder.write_comparison(&scenario, &comparison, self.units)?,
             None => Vec::new(),
         };
         Ok(ComparisonOutput {

@@ -8,13 +8,9 @@ mod show;
 
 use std::{fs, io, path::PathBuf};
 
-use clap::{
-    Args, Subcommand,
-    builder::{PossibleValuesParser, TypedValueParser},
-};
+use clap::{Args, Subcommand, builder::PossibleValuesParser};
 use percuss::{
     case,
-    lsdyna::UnitSystem,
     material::{Filter, Library, Material, MaterialEntry, MaterialGroup},
 };
 use serde::Serialize;
@@ -179,12 +175,6 @@ impl Materials {
         }
         Ok(library)
     }
-}
-
-/// A unit system, by its name.
-pub(super) fn unit_system() -> impl TypedValueParser<Value = UnitSystem> {
-    let names = PossibleValuesParser::new(UnitSystem::all_names());
-    names.try_map(|name| UnitSystem::named(&name).ok_or("it is no unit system"))
 }
 
 /// Writes a text to a file, if there is one; returns it.

@@ -166,6 +166,7 @@ impl<'a> Task<'a> {
             &run_output.scenario,
             &run_output.result,
             &run_output.results(),
+            self.options.units,
             report,
         )?;
         let has_answer = run_output.axisymmetric.as_ref();

@@ -14,6 +14,7 @@ use clap::{Args, Subcommand};
 use percuss::{
     outcome::Outcome,
     sweep::{self, BatchKernel, SweepRow},
+    units::UnitSystem,
 };
 use percuss_report::sweep::{Manifest, Status, SweepFolder, merge, status};
 use serde::Serialize;
@@ -24,6 +25,7 @@ use crate::{
     progress::Progress,
     response::Response,
     terminal::{self, bold},
+    unit_system::unit_system,
     workers,
 };
 
@@ -107,6 +109,9 @@ enum What {
         /// File to write; it is replaced if it exists
         #[arg(long, value_name = "FILE.parquet")]
         out: PathBuf,
+        /// Unit system of the columns [default: mm, us, m/s, kN, MPa, J]
+        #[arg(long, value_name = "SYSTEM", value_parser = unit_system())]
+        units: Option<UnitSystem>,
     },
     Plot(plot::Plot),
 }
@@ -118,8 +123,15 @@ impl Sweep {
                 true => output::print_json(&StatusRecord::from(status(folder)?)),
                 false => print_status(folder),
             },
-            (Some(What::Merge { folders, out }), ..) => {
-                let rows = merge(folders, out)?;
+            (
+                Some(What::Merge {
+                    folders,
+                    out,
+                    units,
+                }),
+                ..,
+            ) => {
+                let rows = merge(folders, out, *units)?;
                 let rows = terminal::counted(rows as usize, "row");
                 output::print(&format!("wrote {rows} to {}\n", out.display()))
             }
@@ -138,9 +150,11 @@ impl Sweep {
             Some(What::Status { folder, .. }) => {
                 Response::json_of(&StatusRecord::from(status(folder)?), Vec::new())
             }
-            Some(What::Merge { folders, out }) => {
-                Response::json_of(&merge(folders, out)?, vec![out.clone()])
-            }
+            Some(What::Merge {
+                folders,
+                out,
+                units,
+            }) => Response::json_of(&merge(folders, out, *units)?, vec![out.clone()]),
             Some(What::Plot(plot)) => plot.execute(),
             None => Err(Failure::no_response()),
         }
