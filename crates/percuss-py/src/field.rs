@@ -54,9 +54,9 @@ pub fn units() -> Vec<(&'static str, &'static str)> {
     named.map(|unit| (unit.suffix, unit.symbol)).collect()
 }
 
-/// Name and factor of a column in a unit system; `None` where it stays as it is.
+/// Name, factor and unit of a column in a unit system; `None` where it stays as it is.
 #[pyfunction]
-pub fn in_units(name: &str, system: &str) -> PyResult<Option<(String, f64)>> {
+pub fn in_units(name: &str, system: &str) -> PyResult<Option<(String, f64, &'static str)>> {
     let Some(units) = UnitSystem::named(system) else {
         let names: Vec<&str> = UnitSystem::all_names().collect();
         return Err(PyValueError::new_err(format!(
@@ -64,7 +64,9 @@ pub fn in_units(name: &str, system: &str) -> PyResult<Option<(String, f64)>> {
             names.join(", ")
         )));
     };
-    Ok(units.column(name))
+    let (_, own) = ResultUnit::split(name);
+    let converted = units.column(name);
+    Ok(converted.map(|(name, factor)| (name, factor, units.unit(own).symbol)))
 }
 
 fn column<R>(column: &HistoryColumn<R>) -> Field {

@@ -90,7 +90,7 @@ def test_quantities_have_their_unit() -> None:
         percuss.Case(projectile={**COPPER, "diameter": Pint(1.0, ampere=1)}, target=PLATE)
     with pytest.raises(percuss.CaseError):
         percuss.Case(projectile={**COPPER, "diameter": Pint(1.0)}, target=PLATE)
-    speeds = percuss.compare(texts, velocity=Pint(numpy.array([200.0, 230.0]), meter=1, second=-1), model="chain")
+    speeds = percuss.compare(texts, velocity=Pint(numpy.array([200.0, 230.0]), meter=1, second=-1), model="chain")  # type: ignore[arg-type]
     assert [result.impact_velocity_m_s for result in speeds.results] == [200.0, 230.0]
 
 

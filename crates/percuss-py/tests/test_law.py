@@ -251,4 +251,4 @@ def test_laws_are_refused_where_they_would_have_no_effect(tmp_path: Path) -> Non
         percuss.sweep(varied(case), tmp_path / "rows", client=object(), projectile_law=lambda *_: 3e8)  # type: ignore[arg-type]
     for more in ({"out": tmp_path}, {"axisymmetric": 4}):
         with pytest.raises(percuss.UsageError, match="leave them out"):
-            percuss.uncertainty(uncertain(case), projectile_law=lambda *_: 3e8, **more)  # type: ignore[arg-type]
+            percuss.uncertainty(uncertain(case), projectile_law=lambda *_: 3e8, **more)

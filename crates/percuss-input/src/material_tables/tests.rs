@@ -4,10 +4,10 @@ use super::*;
 use crate::material::{Library, MaterialTable};
 
 fn library() -> MaterialTable {
-    let entries = Library::built_in().entries();
+    let entries = Library::built_in().iter();
     let record =
         |entry: &crate::material::MaterialEntry| (entry.id.clone(), (*entry.material).clone());
-    entries.iter().map(record).collect()
+    entries.map(record).collect()
 }
 
 /// Every record of the library, with all its digits.

@@ -16,7 +16,7 @@ from .progress import Progress, watching
 Path: TypeAlias = str | os.PathLike[str]
 #: A case, or the path of a case file.
 CaseLike: TypeAlias = Case | Path
-#: Velocity in m/s, or a text with its unit.
+#: Velocity in m/s, a text with its unit, or a quantity of pint or astropy.
 Speed: TypeAlias = float | str
 
 

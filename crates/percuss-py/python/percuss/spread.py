@@ -10,7 +10,7 @@ from .command_line import CaseLike, Path, Speed, execute, several, speeds
 from .errors import UsageError
 from .laws import StrengthLaw
 from .progress import Progress
-from .record import Record, Result, shown, table_html
+from .record import Record, Result, in_words, shown, table_html
 from .samples import Sample
 
 if TYPE_CHECKING:
@@ -116,7 +116,16 @@ class Uncertainty(Result):
         """Draws the probability of perforation [%] versus impact velocity [m/s]; the study needs a ``velocity``."""
         return study_plots.perforation(self, ax)
 
-    def _repr_html_(self) -> str:
+    def _headline(self) -> list[str]:
+        words = []
+        for row in self._rows()[:2]:
+            low, middle, high = (in_words(row["quantity"], row[name]) for name in ("p05", "p50", "p95"))
+            words.append(f"{middle} (5 to 95 %: {low.split()[-2]} to {' '.join(high.split()[-2:])})")
+        if self.perforation is not None:
+            words.append(f"probability of perforation {100 * self.perforation.probability:.3g} %")
+        return [*words, f"case {self.case}, model {self.model}, {self.samples} samples"]
+
+    def _details_html(self) -> str:
         rows = [[name, *(shown(row[name]) for row in self._rows())] for name in (self._rows() or [{}])[0] if name != "quantity"]
         if self.perforation is not None:
             rows.append(["probability of perforation [%]", shown(100 * self.perforation.probability)])
