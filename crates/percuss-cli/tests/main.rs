@@ -31,6 +31,7 @@ mod sweep;
 mod sweep_faults;
 mod sweep_plot;
 mod uncertainty;
+mod units;
 mod validate;
 mod validation;
 mod vocabulary;

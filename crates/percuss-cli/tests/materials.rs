@@ -349,7 +349,10 @@ fn records_go_through_json_and_a_table() {
     let toml = ok(path, &[&["materials", "export"], &names[..]].concat());
     for (format, file) in [("json", "two.json"), ("csv", "two.csv")] {
         let more = ["--format", format, "--out", file];
-        ok(path, &[&["materials", "export"], &names[..], &more].concat());
+        ok(
+            path,
+            &[&["materials", "export"], &names[..], &more].concat(),
+        );
         let again = ok(path, &["materials", "import", file]);
         assert_eq!(again, toml, "{format}");
     }
@@ -358,12 +361,26 @@ fn records_go_through_json_and_a_table() {
     let mut lines = table.lines();
     let header = lines.next().unwrap();
     let rows: Vec<String> = lines.map(|line| format!("{line},12\n")).collect();
-    fs::write(path.join("more.csv"), format!("{header},price\n{}", rows.concat())).unwrap();
-    let said = percuss(path, ["materials", "import", "more.csv", "--out", "more.toml"]);
-    assert!(said.stderr.contains("column `price` is not read"), "{}", said.stderr);
+    fs::write(
+        path.join("more.csv"),
+        format!("{header},price\n{}", rows.concat()),
+    )
+    .unwrap();
+    let said = percuss(
+        path,
+        ["materials", "import", "more.csv", "--out", "more.toml"],
+    );
+    assert!(
+        said.stderr.contains("column `price` is not read"),
+        "{}",
+        said.stderr
+    );
     assert_eq!(fs::read_to_string(path.join("more.toml")).unwrap(), toml);
     for (words, message) in [
-        (vec!["two.csv", "--units", "mm-t-s"], "`--units` has no effect on JSON and tables"),
+        (
+            vec!["two.csv", "--units", "mm-t-s"],
+            "`--units` has no effect on JSON and tables",
+        ),
         (vec!["two.k"], "a deck needs `--units`"),
     ] {
         let said = percuss(path, [vec!["materials", "import"], words].concat());

@@ -10,6 +10,7 @@ from typing import Any
 import numpy
 import percuss
 import pytest
+from percuss import quantities
 from conftest import CASES, Program
 
 COPPER = {"material": "copper", "length": "12.74 mm", "diameter": "4.8 mm", "impact_velocity": "230 m/s"}
@@ -83,7 +84,7 @@ def test_quantities_have_their_unit() -> None:
         target=PLATE,
         materials={"mine": {**mine, "density": "8000 kg/m3", "youngs_modulus": "100 GPa", "poissons_ratio": 0.3}},
     )
-    assert percuss.run(case).depth_of_penetration_mm == percuss.run(texts).depth_of_penetration_mm
+    assert percuss.run(case).depth_of_penetration_mm == pytest.approx(percuss.run(texts).depth_of_penetration_mm, rel=1e-9)
     with pytest.raises(percuss.CaseError, match="`kg` is a unit of mass, but a length is due here"):
         percuss.Case(projectile={**COPPER, "diameter": Pint(1.0, kilogram=1)}, target=PLATE)
     with pytest.raises(ValueError, match="`diameter`: no number of a case has the unit of"):
@@ -97,10 +98,11 @@ def test_quantities_have_their_unit() -> None:
 def test_quantities_of_pint() -> None:
     units = pytest.importorskip("pint").UnitRegistry(autoconvert_offset_to_baseunit=True)
     rod = {"material": "copper", "length": 12.74 * units.mm, "diameter": 0.48 * units.cm, "impact_velocity": 0.23 * units("mm/us"),
-           "temperature": units.Quantity(20, "degC")}
+           "temperature": 293 * units.kelvin}
     case = percuss.Case(projectile=rod, target={**PLATE, "thickness": units("25 mm")})
     assert case.impact_velocity_m_s == pytest.approx(230.0, rel=1e-15)
-    texts = percuss.Case(projectile={**COPPER, "temperature": "293.15 K"}, target=PLATE)
+    texts = percuss.Case(projectile={**COPPER, "temperature": "293 K"}, target=PLATE)
+    assert quantities.text(units.Quantity(20, "degC")) == "293.15 K"
     assert percuss.run(case).depth_of_penetration_mm == pytest.approx(percuss.run(texts).depth_of_penetration_mm, rel=1e-9)
     with pytest.raises(percuss.CaseError, match="but a length is due here"):
         case.replace({"projectile.diameter": 3 * units.kg})
@@ -108,6 +110,7 @@ def test_quantities_of_pint() -> None:
 
 def test_quantities_of_astropy() -> None:
     units = pytest.importorskip("astropy.units")
+    assert quantities.text(20 * units.deg_C) == "293.15 K"
     rod = {"material": "copper", "length": 12.74 * units.mm, "diameter": 0.48 * units.cm, "impact_velocity": 0.23 * units.km / units.s}
     case = percuss.Case(projectile=rod, target={**PLATE, "thickness": 25 * units.mm})
     assert case.impact_velocity_m_s == pytest.approx(230.0, rel=1e-15)

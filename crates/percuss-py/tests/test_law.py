@@ -55,7 +55,8 @@ def test_what_a_law_raises_ends_the_run(result: Any, error: type[Exception] | No
     def law(strain: float, _rate: float, _temperature: float) -> Any:
         nonlocal calls
         calls += 1
-        if strain > 0.01:
+        # Some strains are asked for before the first step.
+        if calls > 50 and strain > 0.001:
             if error is None:
                 raise ZeroDivisionError("a mistake in the law")
             return result
@@ -63,7 +64,8 @@ def test_what_a_law_raises_ends_the_run(result: Any, error: type[Exception] | No
 
     with pytest.raises(error or ZeroDivisionError):
         percuss.run(shot({"rigid_wall": True}), projectile_law=law)
-    assert calls > 10
+    # Nothing is asked of a law that has failed.
+    assert 50 < calls < 10_000
 
 
 # Hard enough to stay rigid, into a target that a law of resistance stands for.

@@ -2,26 +2,10 @@
 
 use toml::{Table, Value};
 
-/// Keys whose values are texts, whatever they look like.
-const TEXTS: [&str; 9] = [
-    "name",
-    "family",
-    "group",
-    "state",
-    "trust",
-    "note",
-    "calibrated.from",
-    "calibrated.model",
-    "calibrated.percuss_version",
-];
-/// Keys of lists of texts.
-const LISTS: [&str; 5] = [
-    "aliases",
-    "sources",
-    "calibrated.parameters",
-    "calibrated.sources",
-    "calibrated.shots",
-];
+use super::keys::{Kind, known};
+
+/// What stands for a table without keys.
+const PRESENT: &str = "yes";
 /// What stands between the items of a list.
 const SEPARATOR: char = ';';
 
@@ -39,9 +23,10 @@ fn add(table: &Table, outer: &str, cells: &mut Vec<(String, String)>) {
             outer => format!("{outer}.{name}"),
         };
         match value {
+            Value::Table(inner) if inner.is_empty() => cells.push((key, PRESENT.to_owned())),
             Value::Table(inner) => add(inner, &key, cells),
             Value::String(text) => cells.push((key, text.clone())),
-            Value::Array(items) if LISTS.contains(&key.as_str()) => {
+            Value::Array(items) => {
                 let items: Vec<&str> = items.iter().filter_map(Value::as_str).collect();
                 cells.push((key, items.join(&format!("{SEPARATOR} "))));
             }
@@ -55,20 +40,28 @@ pub(super) fn value(key: &str, cell: &str, unit: Option<&str>) -> Value {
     if let Some(unit) = unit {
         return Value::String(format!("{cell} {unit}"));
     }
-    if LISTS.contains(&key) {
-        let items = cell.split(SEPARATOR).map(str::trim);
-        let items = items.filter(|item| !item.is_empty());
-        return Value::Array(items.map(|item| Value::String(item.to_owned())).collect());
+    let text = || Value::String(cell.to_owned());
+    match known().get(key) {
+        Some(Kind::List) => {
+            let items = cell.split(SEPARATOR).map(str::trim);
+            let items = items.filter(|item| !item.is_empty());
+            Value::Array(items.map(|item| Value::String(item.to_owned())).collect())
+        }
+        Some(Kind::Plain) => match (cell.to_lowercase().as_str(), cell.parse::<f64>()) {
+            ("true", _) => Value::Boolean(true),
+            ("false", _) => Value::Boolean(false),
+            (_, Ok(number)) => whole(number).unwrap_or(Value::Float(number)),
+            _ => text(),
+        },
+        Some(Kind::Empty) if cell == PRESENT => Value::Table(Table::new()),
+        _ => text(),
     }
-    if TEXTS.contains(&key) {
-        return Value::String(cell.to_owned());
-    }
-    let parsed: Option<Table> = format!("x = {cell}").parse().ok();
-    let number = cell.parse::<f64>().ok().map(Value::Float);
-    let of_toml = parsed.and_then(|mut table| table.remove("x"));
-    of_toml
-        .or(number)
-        .unwrap_or_else(|| Value::String(cell.to_owned()))
+}
+
+/// A whole number, which a key may need.
+fn whole(number: f64) -> Option<Value> {
+    let is_whole = number.fract() == 0.0 && number.abs() < 1e15;
+    is_whole.then_some(Value::Integer(number as i64))
 }
 
 /// Puts a value under a key in dotted form; a table is made where there is none.

@@ -103,7 +103,7 @@ fn columns(table: &CsvTable<'_>) -> Result<(Vec<KeyColumn>, Vec<String>), Box<In
             }
             None => (name.as_str(), None),
         };
-        if !keys::known().contains(key) {
+        if !keys::known().contains_key(key) {
             continue;
         }
         if columns.iter().any(|column| column.key == key) {
@@ -119,7 +119,7 @@ fn columns(table: &CsvTable<'_>) -> Result<(Vec<KeyColumn>, Vec<String>), Box<In
     }
     let read: Vec<String> = columns.iter().map(|column| column.name.clone()).collect();
     let read = read.iter().map(String::as_str);
-    let known = keys::known().iter().map(String::as_str);
+    let known = keys::known().keys().map(String::as_str);
     let known: Vec<&str> = read.chain(known).chain([ID]).collect();
     let unread = header::check(table, &known, &[ID])?;
     Ok((columns, unread))

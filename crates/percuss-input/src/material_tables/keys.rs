@@ -1,6 +1,6 @@
 //! Keys of a material in dotted form, from its schema.
 
-use std::{collections::BTreeSet, sync::LazyLock};
+use std::{collections::BTreeMap, sync::LazyLock};
 
 use serde_json::Value;
 
@@ -9,18 +9,37 @@ use crate::material::Material;
 /// Most tables that a key of a material stands in.
 const DEEPEST: usize = 4;
 
-/// All keys of numbers, texts and lists.
-pub(super) fn known() -> &'static BTreeSet<String> {
-    static KEYS: LazyLock<BTreeSet<String>> = LazyLock::new(|| {
+/// What stands under a key.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// A text, or a quantity with its unit.
+    Text,
+    /// A list of texts.
+    List,
+    /// A number, or whether something holds.
+    Plain,
+    /// A table without keys: that it is there says all.
+    Empty,
+}
+
+/// All keys with what stands under them.
+pub(super) fn known() -> &'static BTreeMap<String, Kind> {
+    static KEYS: LazyLock<BTreeMap<String, Kind>> = LazyLock::new(|| {
         let schema = schemars::schema_for!(Material).to_value();
-        let mut keys = BTreeSet::new();
+        let mut keys = BTreeMap::new();
         collect(&schema, &schema, "", 0, &mut keys);
         keys
     });
     &KEYS
 }
 
-fn collect(root: &Value, schema: &Value, key: &str, depth: usize, keys: &mut BTreeSet<String>) {
+fn collect(
+    root: &Value,
+    schema: &Value,
+    key: &str,
+    depth: usize,
+    keys: &mut BTreeMap<String, Kind>,
+) {
     if depth > DEEPEST {
         return;
     }
@@ -34,8 +53,12 @@ fn collect(root: &Value, schema: &Value, key: &str, depth: usize, keys: &mut BTr
         collect(root, choice, key, depth, keys);
     }
     let Some(properties) = schema.get("properties").and_then(Value::as_object) else {
-        if schema.get("type").is_some() && schema["type"] != "null" && !key.is_empty() {
-            keys.insert(key.to_owned());
+        if let Some(kind) = kind(schema).filter(|_| !key.is_empty()) {
+            // A key with several forms takes the text that shows which.
+            let first = keys.entry(key.to_owned()).or_insert(kind);
+            if kind == Kind::Text {
+                *first = kind;
+            }
         }
         return;
     };
@@ -48,25 +71,45 @@ fn collect(root: &Value, schema: &Value, key: &str, depth: usize, keys: &mut BTr
     }
 }
 
+/// Kind of a schema without keys of its own; `None` where it says nothing.
+fn kind(schema: &Value) -> Option<Kind> {
+    let types = match schema.get("type")? {
+        Value::Array(types) => types.iter().filter_map(Value::as_str).collect(),
+        one => vec![one.as_str()?],
+    };
+    let has = |name: &str| types.contains(&name);
+    match () {
+        () if has("string") => Some(Kind::Text),
+        () if has("array") => Some(Kind::List),
+        () if has("object") => Some(Kind::Empty),
+        () if has("number") || has("integer") || has("boolean") => Some(Kind::Plain),
+        () => None,
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::known;
+    use super::{Kind, known};
 
     #[test]
     fn keys_are_those_of_numbers_texts_and_lists() {
-        for key in [
-            "name",
-            "density",
-            "poissons_ratio",
-            "aliases",
-            "recommended",
-            "trust",
-            "strength.johnson_cook.a",
-            "strength.power_law.exponent",
-            "equation_of_state.gruneisen",
+        for (key, kind) in [
+            ("name", Kind::Text),
+            ("density", Kind::Text),
+            ("poissons_ratio", Kind::Plain),
+            ("aliases", Kind::List),
+            ("damage.sources", Kind::List),
+            ("recommended", Kind::Plain),
+            ("trust", Kind::Text),
+            ("strength.elastic", Kind::Empty),
+            ("strength.johnson_cook.a", Kind::Text),
+            ("strength.power_law.exponent", Kind::Plain),
+            ("equation_of_state.gruneisen", Kind::Plain),
         ] {
-            assert!(known().contains(key), "{key} is not in {:?}", known());
+            assert_eq!(known().get(key), Some(&kind), "{key} in {:?}", known());
         }
-        assert!(!known().contains("strength") && !known().contains("strength.johnson_cook"));
+        for table in ["strength", "strength.johnson_cook"] {
+            assert!(!known().contains_key(table), "{table}");
+        }
     }
 }

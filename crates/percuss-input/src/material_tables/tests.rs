@@ -1,7 +1,10 @@
 //! Tests of tables of materials.
 
 use super::*;
-use crate::material::{Library, MaterialTable};
+use crate::{
+    case::materials_toml,
+    material::{Library, MaterialTable},
+};
 
 fn library() -> MaterialTable {
     let entries = Library::built_in().iter();
@@ -10,17 +13,22 @@ fn library() -> MaterialTable {
     entries.map(record).collect()
 }
 
-/// Every record of the library, with all its digits.
+/// Every record of the library, to the digits of its text.
 #[test]
 fn what_is_written_is_read_again() {
     let records = library();
     assert!(records.len() > 60);
     let written = csv(&records).unwrap();
-    let read = read_csv("all.csv", &written).unwrap();
-    assert_eq!(read.warnings, [""; 0]);
-    assert_eq!(read.records, records);
-    let read = read_json("all.json", &json(&records).unwrap()).unwrap();
-    assert_eq!(read.records, records);
+    let from_csv = read_csv("all.csv", &written).unwrap();
+    assert_eq!(from_csv.warnings, [""; 0]);
+    let from_json = read_json("all.json", &json(&records).unwrap()).unwrap();
+    for read in [from_csv.records, from_json.records] {
+        assert_eq!(read.len(), records.len());
+        for (id, record) in records.clone() {
+            let text = |record| materials_toml(&MaterialTable::from([(id.clone(), record)]));
+            assert_eq!(text(read[&id].clone()), text(record), "{id}");
+        }
+    }
 }
 
 #[test]
@@ -53,23 +61,27 @@ fn what_is_wrong_is_refused_with_its_place() {
     for (row, place, message) in [
         (
             "foam,Foam,30,20 MPa,0.1,400 kPa",
-            "a.csv:2:10",
+            "a.csv:2: `density`",
             "the unit is missing",
         ),
         (
             "foam,Foam,30 kg/m3,20 kg,0.1,400 kPa",
-            "a.csv:2:19",
+            "a.csv:2: `youngs_modulus`",
             "`kg` is a unit of mass",
         ),
         (
             "foam,Foam,30 kg/m3,20 MPa,0.7,400 kPa",
-            "a.csv:2:26",
+            "a.csv:2: `poissons_ratio`",
             "0.7 is out of range",
         ),
-        ("foam,Foam,30 kg/m3,20 MPa,0.1,", "a.csv:2:1", "strength"),
+        (
+            "foam,Foam,30 kg/m3,20 MPa,0.1,",
+            "a.csv:2: `id`",
+            "strength",
+        ),
         (
             ",Foam,30 kg/m3,20 MPa,0.1,400 kPa",
-            "a.csv:2:1",
+            "a.csv:2: `id`",
             "`id` is empty",
         ),
     ] {
@@ -87,10 +99,14 @@ fn what_is_wrong_is_refused_with_its_place() {
     let record = "{\"foam\": {\"name\": \"Foam\", \"density\": \"30 kg/m3\",\n \"youngs_modulus\": \"20 MPa\", \"poissons_ratio\": 0.7,\n \
                   \"strength\": {\"perfectly_plastic\": {\"flow_stress\": \"400 kPa\"}}}}";
     for (text, place, message) in [
-        (record.to_owned(), "a.json:2:29", "0.7 is out of range"),
+        (
+            record.to_owned(),
+            "a.json:2: `foam.poissons_ratio`",
+            "0.7 is out of range",
+        ),
         (
             record.replace("20 MPa", "20"),
-            "a.json:1:2",
+            "a.json:1: `foam`",
             "the unit is missing",
         ),
         (record.replace("}}}}", "}}}"), "a.json:3", "EOF"),

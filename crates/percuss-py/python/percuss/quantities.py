@@ -45,8 +45,8 @@ def text(value: Any) -> str | float | list[Any] | None:
         base = value.to_base_units()
         units: Mapping[str, Any] = dict(base.unit_items())
         return _written(base.magnitude, units, value)
-    if hasattr(value, "unit") and hasattr(value, "si") and hasattr(value, "value"):
-        # Astropy has temperatures above absolute zero without a way to SI units of its own.
+    if hasattr(value, "unit") and hasattr(value, "value"):
+        # The temperatures of astropy in degrees Celsius have no way to SI units of their own.
         absolute = {"deg_C": 273.15}.get(str(value.unit))
         if absolute is not None:
             return _written(value.value + absolute, {"kelvin": 1}, value)

@@ -18,8 +18,8 @@ def in_units(columns: Mapping[str, Any], system: str | None) -> dict[str, Any]:
 
     Examples
     --------
-    >>> in_units({"depth_mm": [25.4, None], "outcome": ["at rest", "failed"]}, "in-lb-s")
-    {'depth_in': [1.0, None], 'outcome': ['at rest', 'failed']}
+    >>> in_units({"depth_mm": [2.0, None], "outcome": ["at rest", "failed"]}, "SI")
+    {'depth_m': [0.002, None], 'outcome': ['at rest', 'failed']}
     """
     return {new: values for new, _, values in _converted(columns, system)}
 

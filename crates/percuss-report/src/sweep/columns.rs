@@ -142,6 +142,8 @@ mod tests {
         ("band", &["band_of", "band_low", "band_high"]),
         // A list of tables of any number has no place in a row.
         ("fragments", &[]),
+        // Measured curves are of the case as it stands.
+        ("measured_curves", &[]),
         ("details", &["details"]),
         ("warnings", &["warnings"]),
     ];
