@@ -126,6 +126,46 @@ def test_a_quantity_keeps_all_its_bits() -> None:
     assert percuss.Case.from_text(case.text).impact_velocity_m_s == speed
 
 
+def test_values_are_read_and_set() -> None:
+    case = percuss.Case("shot", projectile=COPPER, target=PLATE)
+    other = case.replace({})
+    assert case.projectile.impact_velocity == "230 m/s" and case.projectile.nose is None
+    case.projectile.impact_velocity = "0.25 km/s"
+    assert case.impact_velocity_m_s == 250.0 and other.impact_velocity_m_s == 230.0
+    case.chain.target_elements = 40
+    case.target = {"layers": [{"material": "6061-t6", "thickness": "5 mm"}, {"material": "6061-t6", "thickness": "9 mm"}]}
+    case.target.layers[1].thickness = "10 mm"
+    assert tomllib.loads(case.text)["target"]["layers"][1] == {"material": "6061-t6", "thickness": "10 mm"}
+    assert case.chain.to_dict() == {"target_elements": 40} and repr(case.chain) == "<chain: target_elements=40>"
+    del case.chain.target_elements
+    case.title = "two plates"  # type: ignore[misc]
+    assert case.chain.target_elements is None and case.title == "two plates"
+    assert percuss.run(case, history=False).outcome
+
+
+def test_what_is_set_is_checked_at_once_and_refused_without_a_trace() -> None:
+    case = percuss.Case("shot", projectile=COPPER, target=PLATE)
+    before = case.text
+    for value, words in [(250.0, "the unit is missing"), ("4 kg", "a length is due here"), ("40 m", "allowed"), (None, "diameter")]:
+        with pytest.raises(percuss.CaseError, match=words):
+            case.projectile.diameter = value
+    with pytest.raises(percuss.CaseError, match="impact_velocity"):
+        case.projectile.velocity = "230 m/s"
+    with pytest.raises(AttributeError, match="`projectile` has no `colour`; it has: diameter"):
+        _ = case.projectile.colour
+    with pytest.raises(AttributeError, match="a case has no `projectil`; its tables: .*projectile"):
+        _ = case.projectil
+    assert case.text == before
+
+
+def test_completion_names_tables_and_their_keys() -> None:
+    case = percuss.Case("shot", projectile=COPPER, target=PLATE)
+    assert {"projectile", "target", "chain", "gauges", "impact_velocity_m_s", "save"} <= set(dir(case))
+    assert {"impact_velocity", "diameter", "nose"} <= set(dir(case.projectile))
+    assert {"material", "thickness", "layers"} <= set(dir(case.target))
+    assert {"interface"} <= set(dir(case.chain.published))
+
+
 def test_a_case_can_be_written_changed_and_sent(tmp_path: Path, program: Program) -> None:
     case = percuss.Case("shot", projectile=COPPER, target=PLATE, chain=None)
     case.save(tmp_path / "shot.toml")
