@@ -20,6 +20,7 @@ mod shot_data;
 mod speeds;
 mod table;
 mod terminal;
+mod unit_system;
 mod validation_table;
 mod workers;
 

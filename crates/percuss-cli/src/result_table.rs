@@ -41,6 +41,11 @@ pub fn text(
         &result_rows::detail_rows(result),
         &mut text,
     );
+    block(
+        "differences from measured curves",
+        &result_rows::curve_rows(record),
+        &mut text,
+    );
     text += &fragment_table::text(&record.fragments);
     if let Some(numerics) = &result.numerics {
         energy(numerics, &mut text);

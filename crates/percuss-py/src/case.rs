@@ -11,7 +11,7 @@ use pyo3::{
     types::{PyDict, PyType},
 };
 
-use crate::{errors::raise, si, tables};
+use crate::{errors::raise, tables};
 
 /// A case with its materials looked up.
 #[pyclass(frozen, module = "percuss._percuss")]
@@ -42,7 +42,7 @@ impl Case {
         Self::new(class, document, None)
     }
 
-    /// Reads a case from tables as a file has them; a plain number where a quantity is due is in SI units.
+    /// Reads a case from tables as a file has them; a plain number where a quantity is due is refused.
     #[classmethod]
     fn from_tables(
         class: &Bound<'_, PyType>,
@@ -50,8 +50,7 @@ impl Case {
         tables: &Bound<'_, PyDict>,
         folder: PathBuf,
     ) -> PyResult<Self> {
-        let mut table = tables::to_toml(tables)?;
-        si::add_units(&mut table);
+        let table = tables::to_toml(tables)?;
         Self::from_text(class, name, table.to_string(), folder)
     }
 

@@ -2,6 +2,7 @@
 
 use percuss::{
     Scenario,
+    measured_curves::CurveComparison,
     outcome::{Detail, Numerics, RunResult},
     summary::{RESULT_FIELDS, ResultNumber, ResultRecord},
     units::significant,
@@ -110,6 +111,49 @@ fn band(record: &ResultRecord) -> Option<Row> {
         band.basis
     );
     Some((format!("range of {}", band.quantity.describe()), range))
+}
+
+/// Differences from measured curves, and columns of their tables that nothing reads.
+pub fn curve_rows(record: &ResultRecord) -> Vec<Row> {
+    let row = |curve: &CurveComparison| (curve_label(curve), curve_words(curve));
+    record.measured_curves.iter().map(row).collect()
+}
+
+/// Name, gauge and quantity of a measured curve.
+pub fn curve_label(curve: &CurveComparison) -> String {
+    let quantity = curve.quantity.replace('_', " ");
+    match &curve.gauge {
+        Some(gauge) => format!("{}: {quantity} at {gauge}", curve.name),
+        None => format!("{}: {quantity}", curve.name),
+    }
+}
+
+fn curve_words(curve: &CurveComparison) -> String {
+    let mut words = match (curve.rms_difference, curve.largest_difference) {
+        (Some(rms), Some(largest)) => {
+            let part = curve.relative_rms_difference;
+            let part = part.map_or_else(String::new, |part| {
+                format!(" ({} %)", significant(100.0 * part, 3))
+            });
+            let rounded = |value: f64| format!("{} {}", significant(value, 3), curve.unit);
+            let time = |time: Option<f64>| significant(time.unwrap_or_default(), 4);
+            format!(
+                "RMS difference {}{part}, largest {}, from {} to {} us without a shift of time",
+                rounded(rms),
+                rounded(largest),
+                time(curve.from_us),
+                time(curve.to_us),
+            )
+        }
+        _ => format!(
+            "not compared: {}",
+            curve.reason.as_deref().unwrap_or_default()
+        ),
+    };
+    if !curve.unread_columns.is_empty() {
+        words += &format!("; columns not read: {}", curve.unread_columns.join(", "));
+    }
+    words
 }
 
 /// Numbers that are specific to the model.

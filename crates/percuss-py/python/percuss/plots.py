@@ -7,6 +7,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from . import _percuss
+from .optional import library
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,9 +39,9 @@ def new_axes(ax: Axes | None, size: tuple[float, float] | None = None) -> Axes:
     """Given axes, or new axes of a size [in]."""
     if ax is not None:
         return ax
-    import matplotlib.pyplot
-
-    return matplotlib.pyplot.subplots(layout="constrained", figsize=size)[1]
+    figure = library("matplotlib.pyplot").subplots(layout="constrained", figsize=size)
+    axes: Axes = figure[1]
+    return axes
 
 
 def plain_logarithmic(ax: Axes) -> None:

@@ -138,7 +138,7 @@ fn files_are_those_of_a_run_folder() {
     let scenario = case::load_str("shot", PAPER).unwrap();
     let chain = model::model("chain").unwrap();
     let result = model::run(chain, &scenario, &mut Control::recording()).unwrap();
-    for (name, content) in percuss_report::history_files(&result).unwrap() {
+    for (name, content) in percuss_report::history_files(&result, None).unwrap() {
         let answer = file(name);
         assert!(answer.body == content, "{name}");
         assert!(answer.head.contains("content-disposition: attachment"));

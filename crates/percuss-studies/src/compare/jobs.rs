@@ -130,7 +130,7 @@ fn run_one(
         Entry::Model(model) => {
             let mut report = |now: model::Progress| update(now.fraction.clamp(0.0, 1.0));
             let mut control = Control {
-                record: false,
+                record: !scenario.measured_curves.is_empty(),
                 progress: Some(&mut report),
                 ..Control::default()
             };

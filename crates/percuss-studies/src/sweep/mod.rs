@@ -44,7 +44,7 @@ pub(crate) use crate::inputs::{Copula, Distribution, Values, score, values};
 
 use crate::{
     Error,
-    case::{Document, Template},
+    case::{Document, ScenarioChange, Template},
     model::{self, Estimate, Model},
 };
 
@@ -86,6 +86,15 @@ impl Sweep {
     /// [`Error::Input`], as [`Sweep::load`].
     pub fn of(file: &Document, case: &Document) -> Result<Self, Error> {
         load::read(file, |_| Ok(case.clone()))
+    }
+
+    /// The same with a change of the case of every run.
+    #[must_use]
+    pub fn with_change(self, change: ScenarioChange) -> Self {
+        Self {
+            template: self.template.with_change(change),
+            ..self
+        }
     }
 
     /// Name of the case that is varied.

@@ -1,5 +1,6 @@
 //! `percuss compare`: all models on one case.
 
+mod curves;
 mod head;
 mod messages;
 mod missing;
@@ -19,6 +20,7 @@ use percuss::{
     case,
     compare::{self, Comparison, Observer},
     model::{self, CostClass, Estimate, MODELS},
+    units::UnitSystem,
 };
 
 use crate::{
@@ -31,6 +33,7 @@ use crate::{
     run_folder::RunFolder,
     speeds::Speeds,
     terminal,
+    unit_system::unit_system,
 };
 
 const LONG_ABOUT: &str = "\
@@ -95,6 +98,9 @@ pub struct Compare {
     /// Write numbers and figure to a folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Unit system of compare.csv and compare.parquet [default: mm, m/s]
+    #[arg(long, value_name = "SYSTEM", requires = "out", value_parser = unit_system())]
+    units: Option<UnitSystem>,
     /// No table and no progress: lines of NAME=VALUE pairs
     #[arg(long, short)]
     quiet: bool,
@@ -149,7 +155,7 @@ impl Compare {
         tell(of_models.sum::<Estimate>().times(speeds.len() as f64));
         let comparison = self.compute(&scenario, &speeds, on_progress)?;
         let files = match folder {
-            Some(folder) => folder.write_comparison(&scenario, &comparison)?,
+            Some(folder) => folder.write_comparison(&scenario, &comparison, self.units)?,
             None => Vec::new(),
         };
         Ok(ComparisonOutput {
@@ -237,6 +243,7 @@ impl Compare {
                 1 => single::text(comparison),
                 _ => sweep::text(comparison),
             };
+            text += &curves::text(comparison);
             text += &quantities::elsewhere(comparison);
             text += &warnings::text(comparison);
             text += &missing::text(comparison);

@@ -8,13 +8,9 @@ mod show;
 
 use std::{fs, io, path::PathBuf};
 
-use clap::{
-    Args, Subcommand,
-    builder::{PossibleValuesParser, TypedValueParser},
-};
+use clap::{Args, Subcommand, builder::PossibleValuesParser};
 use percuss::{
     case,
-    lsdyna::UnitSystem,
     material::{Filter, Library, Material, MaterialEntry, MaterialGroup},
     units::shorten,
 };
@@ -181,12 +177,6 @@ impl Materials {
         }
         Ok(library)
     }
-}
-
-/// A unit system of a deck, by its name.
-fn unit_system() -> impl TypedValueParser<Value = UnitSystem> {
-    let names = PossibleValuesParser::new(UnitSystem::NAMES);
-    names.try_map(|name| UnitSystem::named(&name).ok_or("it is no unit system"))
 }
 
 /// Writes a text to a file, if there is one; returns it.

@@ -141,7 +141,7 @@ impl<'a> Task<'a> {
             Some(fields) => fields.run(&self.chosen, &self.scenario, &mut report)?,
             None => {
                 let mut control = Control {
-                    record: self.folder.is_some(),
+                    record: self.folder.is_some() || !self.scenario.measured_curves.is_empty(),
                     progress: Some(&mut report),
                     ..Control::default()
                 };
@@ -173,6 +173,7 @@ impl<'a> Task<'a> {
             &run_output.scenario,
             &run_output.result,
             &run_output.results(),
+            self.options.units,
             report,
         )?;
         let has_answer = run_output.axisymmetric.as_ref();

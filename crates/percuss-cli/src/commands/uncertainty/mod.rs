@@ -193,7 +193,10 @@ impl Uncertainty {
 
     fn task(&self, virtual_files: &VirtualFiles) -> Result<Task, Failure> {
         let document = virtual_files.read(&self.case)?;
-        let study = Study::of(&document)?;
+        let mut study = Study::of(&document)?;
+        if let Some(change) = &virtual_files.change {
+            study = study.with_change(change.clone());
+        }
         let model = model::model(&self.model)?;
         let speeds = match &self.velocity {
             Some(speeds) => speeds.of(&study.scenario)?,
