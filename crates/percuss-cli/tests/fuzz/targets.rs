@@ -193,8 +193,8 @@ fn of_material_files() -> Target {
     );
     fs::write(folder.path().join("case.toml"), case).unwrap();
     let record = "[materials.own]\nname = 'Own'\ndensity = '8960 kg/m3'\nyoungs_modulus = '124 GPa'\npoissons_ratio = 0.34\n\
-        yield_stress = '90 MPa'\nspecific_heat = '383 J/(kg K)'\nstrength = { johnson_cook = { a = '90 MPa', b = '292 MPa', n = 0.31, c = 0.025, m = 1.09, \
-        melting_temperature = '1356 K', reference_strain_rate = '1 1/s' } }\n";
+        yield_stress = '90 MPa'\nspecific_heat = '383 J/(kg K)'\nmelting_temperature = '1356 K'\nstrength = { johnson_cook = { a = '90 MPa', b = '292 MPa', n = 0.31, c = 0.025, m = 1.09, \
+        reference_rate = '1 1/s' } }\n";
     let seeds = vec![record.to_owned()];
     Target::new("material_file", seeds, move |bytes| {
         fs::write(folder.path().join("own.toml"), bytes).unwrap();
@@ -211,7 +211,7 @@ fn sweeps() -> Vec<String> {
 
 const SWEEP: &str = "base = 'case.toml'\nmodel = 'crater_energy'\nsamples = 100\ndesign = 'sobol'\n[[parameter]]\nkey = 'projectile.impact_velocity'\n\
     uniform = { from = '100 m/s', to = '300 m/s' }\n[[parameter]]\nkey = 'projectile.length'\nnormal = { mean = '10 mm', standard_deviation = '1 mm' }\n";
-const GRID: &str = "base = 'case.toml'\nmodel = 'crater_energy'\n[[parameter]]\nkey = 'projectile.impact_velocity'\nlinear = { from = '100 m/s', to = '300 m/s', count = 3 }\n\
+const GRID: &str = "base = 'case.toml'\nmodel = 'crater_energy'\ndesign = 'grid'\n[[parameter]]\nkey = 'projectile.impact_velocity'\nlinear = { from = '100 m/s', to = '300 m/s', count = 3 }\n\
     [[parameter]]\nkey = 'target.thickness'\nlog = { from = '10 mm', to = '30 mm', count = 4 }\n";
 
 /// A sweep that can be read gives runs at its ends and in its middle.
