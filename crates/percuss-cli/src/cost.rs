@@ -4,7 +4,6 @@ use percuss::{
     Scenario,
     input_file::size,
     model::{self, Estimate, Model, time_in_words},
-    units::significant,
 };
 
 use crate::diagnostic;
@@ -35,9 +34,8 @@ fn note(estimate: Estimate) -> Option<String> {
     } = estimate;
     (seconds >= NOTABLE).then(|| {
         format!(
-            "estimated cost: {} of processor time, {} time steps, {} of memory",
+            "estimated cost: {} of processor time, {steps:.1e} time steps, {} of memory",
             time_in_words(seconds),
-            significant(steps, 2),
             size(memory as u64),
         )
     })
@@ -59,7 +57,7 @@ mod tests {
         let words = note(estimate(20_000.0)).unwrap();
         assert_eq!(
             words,
-            "estimated cost: 6 h of processor time, 1200000 time steps, 2.8 GiB of memory"
+            "estimated cost: 6 h of processor time, 1.2e6 time steps, 2.8 GiB of memory"
         );
     }
 }
