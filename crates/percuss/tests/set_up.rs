@@ -61,11 +61,16 @@ fn latency(name: &str, scenario: &Scenario, wait: Duration) -> Option<Duration> 
             false => ControlFlow::Continue(()),
         }
     };
-    let mut control = Control {
-        progress: Some(&mut watch),
-        ..Control::default()
-    };
-    let end = model::run(model::model(name).unwrap(), scenario, &mut control);
+    // Threads of its own: those of the other tests are busy for many seconds.
+    let pool = rayon::ThreadPoolBuilder::new().build().unwrap();
+    let model = model::model(name).unwrap();
+    let end = pool.install(|| {
+        let mut control = Control {
+            progress: Some(&mut watch),
+            ..Control::default()
+        };
+        model::run(model, scenario, &mut control)
+    });
     let latency = start.elapsed().saturating_sub(wait);
     assert!(matches!(end, Err(Error::Cancelled { .. })), "{name}");
     (!begun).then_some(latency)
