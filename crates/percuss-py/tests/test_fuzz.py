@@ -25,12 +25,12 @@ LONGEST_MESSAGE = 4000
 
 TABLES: dict[str, Any] = {
     "title": "a shot",
-    "projectile": {"material": "copper", "length": "12.74 mm", "diameter": 4.8e-3, "impact_velocity": 230.0, "nose": "flat"},
-    "target": {"material": "aluminium-2024-t351", "thickness": 0.025, "back_face": "free"},
+    "projectile": {"material": "copper", "length": "12.74 mm", "diameter": "4.8 mm", "impact_velocity": "230 m/s", "nose": "flat"},
+    "target": {"material": "aluminium-2024-t351", "thickness": "25 mm", "back_face": "free"},
     "chain": {"projectile_elements": 4, "target_elements": 8, "max_steps": 200},
     "fdm": {"max_steps": 200},
     "gauges": [{"position": "-1 mm"}],
-    "materials": {"own": {"name": "Own", "density": 2500.0, "youngs_modulus": "70 GPa", "poissons_ratio": 0.2, "strength": {"elastic": {}}}},
+    "materials": {"own": {"name": "Own", "density": "2500 kg/m3", "youngs_modulus": "70 GPa", "poissons_ratio": 0.2, "strength": {"elastic": {}}}},
 }
 
 

@@ -19,7 +19,7 @@
 //!     let files = figure.write(&folder)?;
 //!     println!("{}: {}", files[0].display(), figure.title);
 //! }
-//! percuss_report::write_histories(&folder, &result)?;
+//! percuss_report::write_histories(&folder, &result, None)?;
 //! # std::fs::remove_dir_all(folder)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -40,6 +40,27 @@ const CUT: &str = r#"
     target = { material = "weldox-460-e", thickness = "5 mm", back_face = "free" }
     axi = { cells_per_radius = 4, target_radius = "30 mm" }
 "#;
+/// Materials of a rigid projectile and of a target that breaks.
+macro_rules! hard_and_brittle {
+    () => {
+        r#"
+    [materials.hard]
+    name = "Elastic"
+    density = "2500 kg/m3"
+    youngs_modulus = "70 GPa"
+    poissons_ratio = 0.22
+    strength.elastic = {}
+    [materials.brittle]
+    name = "Glass"
+    density = "2500 kg/m3"
+    youngs_modulus = "70 GPa"
+    poissons_ratio = 0.22
+    strength.elastic = {}
+    fracture = { energy = "8 J/m2", tensile_strength = "40 MPa" }
+"#
+    };
+}
+
 const LATTICE: &str = r#"
     projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "20 m/s", nose = "hemisphere" }
     target = { material = "hard", thickness = "5 mm", back_face = "free" }
@@ -51,60 +72,30 @@ const LATTICE: &str = r#"
     poissons_ratio = 0.22
     strength.elastic = {}
 "#;
-const PIECES: &str = r#"
+const PIECES: &str = concat!(
+    r#"
     projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "20 m/s", nose = "hemisphere" }
     target = { material = "brittle", thickness = "5 mm", back_face = "free" }
     particles = { spacing = "0.7 mm", width = "40 mm", end_time = "40 us" }
-    [materials.hard]
-    name = "Elastic"
-    density = "2500 kg/m3"
-    youngs_modulus = "70 GPa"
-    poissons_ratio = 0.22
-    strength.elastic = {}
-    [materials.brittle]
-    name = "Glass"
-    density = "2500 kg/m3"
-    youngs_modulus = "70 GPa"
-    poissons_ratio = 0.22
-    strength.elastic = {}
-    fracture = { energy = "8 J/m2", tensile_strength = "40 MPa" }
-"#;
-const NOTCHED: &str = r#"
+"#,
+    hard_and_brittle!()
+);
+const NOTCHED: &str = concat!(
+    r#"
     projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "20 m/s" }
     target = { material = "brittle", thickness = "6 mm", back_face = "free" }
     particles = { spacing = "0.7 mm", width = "40 mm", end_time = "40 us", notches = [{ from = ["3.2 mm", "6 mm"], to = ["3.2 mm", "3 mm"] }] }
-    [materials.hard]
-    name = "Elastic"
-    density = "2500 kg/m3"
-    youngs_modulus = "70 GPa"
-    poissons_ratio = 0.22
-    strength.elastic = {}
-    [materials.brittle]
-    name = "Glass"
-    density = "2500 kg/m3"
-    youngs_modulus = "70 GPa"
-    poissons_ratio = 0.22
-    strength.elastic = {}
-    fracture = { energy = "8 J/m2", tensile_strength = "40 MPa" }
-"#;
-const DISC: &str = r#"
+"#,
+    hard_and_brittle!()
+);
+const DISC: &str = concat!(
+    r#"
     projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "20 m/s" }
     target = { material = "brittle", thickness = "10 mm", back_face = "free" }
     particles = { spacing = "0.7 mm", outline = "disc", end_time = "40 us" }
-    [materials.hard]
-    name = "Elastic"
-    density = "2500 kg/m3"
-    youngs_modulus = "70 GPa"
-    poissons_ratio = 0.22
-    strength.elastic = {}
-    [materials.brittle]
-    name = "Glass"
-    density = "2500 kg/m3"
-    youngs_modulus = "70 GPa"
-    poissons_ratio = 0.22
-    strength.elastic = {}
-    fracture = { energy = "8 J/m2", tensile_strength = "40 MPa" }
-"#;
+"#,
+    hard_and_brittle!()
+);
 const PLUG: &str = include_str!("../../../cases/weldox-460e-12mm-blunt/scenario.toml");
 const FAILURE: &str = include_str!("../../../cases/spall-two-plates/scenario.toml");
 const CAVITY: &str = r#"

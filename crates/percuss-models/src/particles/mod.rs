@@ -15,6 +15,7 @@ mod results;
 mod run;
 mod setup;
 mod shape;
+mod slot;
 mod step;
 mod survey;
 #[cfg(test)]

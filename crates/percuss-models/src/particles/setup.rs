@@ -1,13 +1,14 @@
 //! Bodies of a case: which one is a lattice, its rows and its memory.
 
 use super::{
-    body::{Body, Rows, Slot},
+    body::{Body, Rows},
     cracks::Notches,
     debris::ContactLaw,
     fracture::{self, LEAST_SOFTENING, Softening, Toughness},
     lattice::{Lattice, ROW, Solid, poissons_ratio_refusal},
     packing::{Moved, Packing},
     shape::{Rigid, Shape},
+    slot::Slot,
 };
 use crate::{
     Error, Refusal, Scenario,

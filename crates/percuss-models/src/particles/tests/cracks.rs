@@ -6,11 +6,12 @@ use super::{solid, strip};
 use crate::{
     options::Space,
     particles::{
-        body::{Body, Rows, Slot},
+        body::{Body, Rows},
         cracks::{Front, Notches},
         fracture::Softening,
         lattice::ROW,
         packing::Packing,
+        slot::Slot,
     },
     solver::Control,
 };
