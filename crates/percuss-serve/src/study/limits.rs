@@ -1,7 +1,7 @@
 //! Ballistic limits.
 
 use percuss::{
-    axisymmetric::Request,
+    axisymmetric::{BUDGET, Request},
     limit::{self, RearFace, Search},
     model,
 };
@@ -18,8 +18,13 @@ pub(super) fn limits(job: &Job<'_>) -> Result<Study, Problem> {
     let mut watch = limit::Observer {
         progress: Some(&mut report),
     };
+    // Estimates err by a factor, and a study that is stopped says nothing.
+    let budget = BUDGET.min(0.5 * job.bounds.seconds as f64);
     let search = Search {
-        axisymmetric: Some(Request::unasked()),
+        axisymmetric: Some(Request {
+            budget: Some(budget),
+            ..Request::unasked()
+        }),
         ..Search::default()
     };
     let limits = limit::limits(&model::fast_models(), &scenario, &search, &mut watch)
