@@ -178,3 +178,24 @@ pub fn execute(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Longer lines of a text that is wrapped by hand would be broken into ragged ones.
+    #[test]
+    fn lines_of_help_texts_fit_a_terminal_of_80_columns() {
+        let mut commands = vec![Cli::command()];
+        while let Some(command) = commands.pop() {
+            let texts = [command.get_long_about(), command.get_after_help()];
+            for text in texts.into_iter().flatten() {
+                for line in text.to_string().lines() {
+                    let name = command.get_name();
+                    assert!(line.chars().count() <= 80, "{name}: {line}");
+                }
+            }
+            commands.extend(command.get_subcommands().cloned());
+        }
+    }
+}

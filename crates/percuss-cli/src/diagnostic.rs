@@ -9,7 +9,7 @@ use annotate_snippets::{
     AnnotationKind, Element, Group, Level, Origin, Renderer, Snippet, renderer::DecorStyle,
 };
 use clap::builder::styling::AnsiColor;
-use percuss::InputError;
+use percuss::{InputError, quote::shorten_words};
 
 use crate::terminal;
 
@@ -116,7 +116,8 @@ fn name(key: &str) -> String {
 
 /// Text of a file cannot move the cursor or ring the bell.
 fn printable(text: &str) -> String {
-    text.chars()
+    shorten_words(text)
+        .chars()
         .map(|c| if c.is_control() { '\u{fffd}' } else { c })
         .collect()
 }

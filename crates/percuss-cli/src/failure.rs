@@ -6,7 +6,10 @@ use std::{
     process::ExitCode,
 };
 
-use percuss::{Error, Subject};
+use percuss::{
+    Error, Subject,
+    quote::{shorten_words, shown},
+};
 use percuss_report::ReportError;
 
 use crate::{
@@ -176,13 +179,17 @@ impl Failure {
             }
             Self::Report(error) => message(&error.to_string(), ""),
             Self::Write { path, reason, help } => {
-                let what = format!("cannot write `{}`: {reason}", path.display());
+                let what = format!("cannot write `{}`: {reason}", shown(path));
                 message(&what, help)
             }
             Self::Output(error) => message(&format!("cannot write the output: {error}"), ""),
             Self::NoResult(reasons) => {
                 message("no model gives a result for this case", "") + &lines(reasons)
             }
+            Self::Stopped { time_us: 0.0 } => message(
+                "the run was stopped before its first step: it left no checkpoint",
+                "",
+            ),
             Self::Stopped { time_us } => {
                 let what = format!("the run was stopped at {time_us:.1} us and left a checkpoint");
                 message(
@@ -209,7 +216,7 @@ impl Failure {
                 message: what,
                 help,
             } => message(what, help),
-            Self::CommandLine(error) => error.render().to_string(),
+            Self::CommandLine(error) => shorten_words(&error.render().to_string()),
         }
     }
 }

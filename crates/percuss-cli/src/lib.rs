@@ -3,6 +3,7 @@
 mod by_models;
 mod cli;
 mod commands;
+mod cost;
 mod diagnostic;
 mod failure;
 mod file_list;
@@ -19,6 +20,7 @@ mod shot_data;
 mod speeds;
 mod table;
 mod terminal;
+mod unit_system;
 mod validation_table;
 mod workers;
 
@@ -29,6 +31,7 @@ use std::{
 };
 
 use clap::CommandFactory;
+use percuss::quote::shorten_words;
 
 pub use cli::execute;
 pub use failure::Failure;
@@ -60,7 +63,16 @@ pub fn main(words: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 /// Prints the help or the error of the parser; returns the exit code.
 fn answer_of_parser(error: &clap::Error) -> ExitCode {
-    let printed = error.print().and_then(|()| io::stdout().flush());
+    let whole = error.render().to_string();
+    let short = shorten_words(&whole);
+    let print = || match short == whole {
+        true => error.print(),
+        false => {
+            diagnostic::print(&short);
+            Ok(())
+        }
+    };
+    let printed = print().and_then(|()| io::stdout().flush());
     match printed {
         Err(failure) if !error.use_stderr() && failure.kind() != io::ErrorKind::BrokenPipe => {
             let failure = Failure::Output(failure);

@@ -6,7 +6,12 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use percuss::{Error, calibrate::Calibrated, case::Document, uncertainty::Uncertainty};
+use percuss::{
+    Error,
+    calibrate::Calibrated,
+    case::{Document, ScenarioChange},
+    uncertainty::Uncertainty,
+};
 use serde::Serialize;
 
 use crate::{failure::Failure, output, run_output::RunOutput};
@@ -14,19 +19,23 @@ use crate::{failure::Failure, output, run_output::RunOutput};
 /// Callback with the progress of a command, 0 to 1, and a short text; [`ControlFlow::Break`] ends the command.
 pub type ProgressCallback<'a> = &'a mut (dyn FnMut(f64, &str) -> ControlFlow<()> + Send);
 
-/// Texts that replace files, by their names on the command line.
+/// What a caller brings along: texts that replace files, by their names on the command line, and laws that no file can hold.
 #[derive(Debug, Clone, Default)]
-pub struct VirtualFiles(HashMap<PathBuf, Document>);
+pub struct VirtualFiles {
+    texts: HashMap<PathBuf, Document>,
+    /// A change of every case of `percuss uncertainty`, the one command that takes it.
+    pub change: Option<ScenarioChange>,
+}
 
 impl VirtualFiles {
     /// Replaces a file by a text.
     pub fn put(&mut self, name: impl Into<PathBuf>, document: Document) {
-        self.0.insert(name.into(), document);
+        self.texts.insert(name.into(), document);
     }
 
     /// Reads the text of this name, otherwise the file.
     pub(crate) fn read(&self, path: &Path) -> Result<Document, Error> {
-        match self.0.get(path) {
+        match self.texts.get(path) {
             Some(document) => Ok(document.clone()),
             None => Document::read(path),
         }

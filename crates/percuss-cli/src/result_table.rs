@@ -31,7 +31,7 @@ pub fn text(
 ) -> String {
     let mut text = String::new();
     head(scenario, result, record, &mut text);
-    let mut outcome = result_rows::outcome_rows(scenario, result, record);
+    let mut outcome = result_rows::outcome_rows(scenario, result, record, result_rows::DIGITS);
     if let Some((_, ended)) = outcome.first_mut() {
         *ended = bold(&ended);
     }
@@ -39,6 +39,11 @@ pub fn text(
     block(
         &format!("model {}", result.model),
         &result_rows::detail_rows(result),
+        &mut text,
+    );
+    block(
+        "differences from measured curves",
+        &result_rows::curve_rows(record),
         &mut text,
     );
     text += &fragment_table::text(&record.fragments);

@@ -12,6 +12,7 @@ use percuss::{
     compare::Comparison,
     outcome::RunResult,
     summary::CaseResults,
+    units::UnitSystem,
 };
 use percuss_report::Figure;
 
@@ -88,17 +89,18 @@ impl RunFolder {
         scenario: &Scenario,
         result: &RunResult,
         results: &CaseResults,
+        units: Option<UnitSystem>,
         report: &mut (dyn FnMut(f64, &str) + Send),
     ) -> Result<Vec<PathBuf>, Failure> {
         self.put("result.json", output::json(results)?.as_bytes())?;
         self.written
-            .extend(percuss_report::write_fragments(&self.path, result)?);
+            .extend(percuss_report::write_fragments(&self.path, result, units)?);
         if !has_history(result) {
             return Ok(self.written);
         }
         report(0.0, "writing histories");
         self.written
-            .extend(percuss_report::write_histories(&self.path, result)?);
+            .extend(percuss_report::write_histories(&self.path, result, units)?);
         self.written
             .extend(percuss_report::write_shapes(&self.path, result)?);
         let figures = percuss_report::run_figures(scenario, result)?;
@@ -118,11 +120,13 @@ impl RunFolder {
         mut self,
         scenario: &Scenario,
         comparison: &Comparison,
+        units: Option<UnitSystem>,
     ) -> Result<Vec<PathBuf>, Failure> {
         self.put("compare.json", output::json(comparison)?.as_bytes())?;
-        self.written
-            .extend(percuss_report::write_comparison(&self.path, comparison)?);
-        if let Some(figure) = percuss_report::compare_figure(scenario, comparison) {
+        self.written.extend(percuss_report::write_comparison(
+            &self.path, comparison, units,
+        )?);
+        for figure in percuss_report::compare_figures(scenario, comparison) {
             self.written.extend(figure.write(&self.path)?);
         }
         Ok(self.written)

@@ -236,3 +236,65 @@ fn links_and_devices_do_not_hang() {
         assert!(refused(path, "fifo.toml", 4).contains("not a regular file"));
     }
 }
+
+/// Words of the command line and texts of a case are quoted in part: neither messages nor results repeat a megabyte.
+#[test]
+fn long_texts_are_not_repeated() {
+    let folder = crate::support::shot(crate::support::CASE);
+    let long = "x".repeat(100_000);
+    for words in [
+        vec!["run", "shot.toml", "--model", &long],
+        vec!["run", "shot.toml", &long],
+        vec![&long],
+        vec!["run", "shot.toml", "--reference", &long],
+        vec!["compare", "shot.toml", "--velocity", &long],
+        vec!["run", "shot.toml", "--out", "out", "--checkpoint", &long],
+        vec!["run", &long],
+        vec!["materials", &long],
+        vec!["models", &long],
+        vec![
+            "calibrate",
+            "--fit",
+            &long,
+            "--data",
+            "builtin",
+            "--model",
+            "chain",
+        ],
+    ] {
+        let said = percuss(folder.path(), &words);
+        assert!([2, 4].contains(&said.code), "{}", said.code);
+        assert!(
+            said.stderr.len() + said.stdout.len() < 4000,
+            "{:.40} {}: {:.600}",
+            words.join(" "),
+            said.stderr.len(),
+            said.stderr
+        );
+    }
+    let million = "y".repeat(500_000);
+    for (key, case) in [
+        (
+            "title",
+            crate::support::CASE.replace("Copper on aluminium", &million),
+        ),
+        (
+            "sources",
+            format!("sources = ['{million}']\n{}", crate::support::CASE),
+        ),
+        (
+            "materials.own.name",
+            format!(
+                "{}\n[materials.own]\nname = '{million}'\n",
+                crate::support::CASE
+            ),
+        ),
+    ] {
+        fs::write(folder.path().join("long.toml"), case).unwrap();
+        let message = refused(folder.path(), "long.toml", 2);
+        assert!(
+            key == "materials.own.name" || message.contains("allowed: up to 1000"),
+            "{key}: {message}"
+        );
+    }
+}

@@ -83,3 +83,65 @@ fn a_run_that_is_interrupted_continues_with_the_same_numbers() {
         assert!(of("out") == of("whole"), "{name}");
     }
 }
+
+/// A checkpoint is on the disk before its name is, and its name before the run goes on. Where `strace` is missing nothing is tried.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_checkpoint_outlives_a_loss_of_power() {
+    let case = r#"
+        projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
+        target = { material = "aluminium-2024-t351", thickness = "25 mm" }
+        chain = { target_resistance = "column", projectile_elements = 300, target_elements = 600 }
+        "#;
+    let folder = shot(case);
+    let traced = std::process::Command::new("strace")
+        .args([
+            "-f",
+            "-y",
+            "-o",
+            "calls",
+            "-e",
+            "trace=fsync,rename,renameat,renameat2",
+        ])
+        .arg(env!("CARGO_BIN_EXE_percuss"))
+        .args([
+            "run",
+            "shot.toml",
+            "--fast",
+            "--model",
+            "chain",
+            "--out",
+            "out",
+            "--checkpoint",
+            "0.01s",
+        ])
+        .current_dir(folder.path())
+        .output();
+    if !traced.is_ok_and(|traced| traced.status.success()) {
+        println!("no strace here");
+        return;
+    }
+    let calls = fs::read_to_string(folder.path().join("calls")).unwrap();
+    let calls: Vec<&str> = calls
+        .lines()
+        .filter(|call| call.contains("fsync(") || call.contains("checkpoint.percuss"))
+        .collect();
+    let renames: Vec<usize> = (0..calls.len())
+        .filter(|i| calls[*i].contains("rename"))
+        .collect();
+    assert!(!renames.is_empty(), "{calls:#?}");
+    for i in renames {
+        let [before, after] = [i.checked_sub(1), i.checked_add(1)]
+            .map(|i| i.and_then(|i| calls.get(i)).copied().unwrap_or_default());
+        assert!(
+            before.contains("fsync(") && before.contains(".tmp>"),
+            "{before}\n{}",
+            calls[i]
+        );
+        assert!(
+            after.contains("fsync(") && after.contains("/out>"),
+            "{}\n{after}",
+            calls[i]
+        );
+    }
+}

@@ -320,7 +320,10 @@ fn exported_records_are_read_and_refusals_have_reasons() {
             vec!["copper", "--format", "ls-dyna", "--units", "m-kg-s"],
             "`power_law` is no Johnson–Cook law",
         ),
-        (vec!["rha", "--units", "m-kg-s"], "`--units` has no effect"),
+        (
+            vec!["rha", "--units", "m-kg-s"],
+            "`--units` has an effect with `--format ls-dyna` only",
+        ),
         (
             vec!["rha", "--format", "ls-dyna"],
             "`--format ls-dyna` needs `--units`",
@@ -335,5 +338,53 @@ fn exported_records_are_read_and_refusals_have_reasons() {
         let said = percuss(here, &arguments);
         assert_eq!((said.code, said.stdout.as_str()), (2, ""), "{arguments:?}");
         assert!(flat(&said.stderr).contains(words), "{}", said.stderr);
+    }
+}
+
+#[test]
+fn records_go_through_json_and_a_table() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path();
+    let names = ["ofhc-copper-johnson-cook", "copper-woodward"];
+    let toml = ok(path, &[&["materials", "export"], &names[..]].concat());
+    for (format, file) in [("json", "two.json"), ("csv", "two.csv")] {
+        let more = ["--format", format, "--out", file];
+        ok(
+            path,
+            &[&["materials", "export"], &names[..], &more].concat(),
+        );
+        let again = ok(path, &["materials", "import", file]);
+        assert_eq!(again, toml, "{format}");
+    }
+    // A spreadsheet adds a column and converts another.
+    let table = fs::read_to_string(path.join("two.csv")).unwrap();
+    let mut lines = table.lines();
+    let header = lines.next().unwrap();
+    let rows: Vec<String> = lines.map(|line| format!("{line},12\n")).collect();
+    fs::write(
+        path.join("more.csv"),
+        format!("{header},price\n{}", rows.concat()),
+    )
+    .unwrap();
+    let said = percuss(
+        path,
+        ["materials", "import", "more.csv", "--out", "more.toml"],
+    );
+    assert!(
+        said.stderr.contains("column `price` is not read"),
+        "{}",
+        said.stderr
+    );
+    assert_eq!(fs::read_to_string(path.join("more.toml")).unwrap(), toml);
+    for (words, message) in [
+        (
+            vec!["two.csv", "--units", "mm-t-s"],
+            "`--units` has no effect on JSON and tables",
+        ),
+        (vec!["two.k"], "a deck needs `--units`"),
+    ] {
+        let said = percuss(path, [vec!["materials", "import"], words].concat());
+        assert_eq!(said.code, 2);
+        assert!(said.stderr.contains(message), "{}", said.stderr);
     }
 }

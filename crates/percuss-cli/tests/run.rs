@@ -169,7 +169,10 @@ chain = { projectile_elements = 10 }
                 "--out",
                 &out,
             ];
-            let text = ok(folder.path(), &arguments);
+            // A long run says on standard error what it will cost.
+            let said = percuss(folder.path(), arguments);
+            assert_eq!(said.code, 0, "{model}: {}", said.stderr);
+            let text = said.stdout;
             let written = folder.path().join(&out);
             assert!(text.contains("outcome  "), "{model}: {text}");
             assert!(written.join("result.json").is_file(), "{model}");

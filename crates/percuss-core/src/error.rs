@@ -2,7 +2,10 @@
 
 use std::{fmt, io, ops::Range, path::PathBuf};
 
-use crate::Refusal;
+use crate::{
+    Refusal,
+    quote::{shorten_words, shown},
+};
 
 /// Any failure of the library.
 #[derive(Debug, thiserror::Error)]
@@ -10,7 +13,7 @@ use crate::Refusal;
 pub enum Error {
     /// A case or material file, or a case built in code, is not valid.
     #[error(transparent)]
-    Input(#[from] Box<InputError>),
+    Input(Box<InputError>),
     /// The model does not apply to this case.
     #[error("model `{model}` does not apply to this case: {refusal}")]
     NotApplicable {
@@ -66,7 +69,7 @@ pub enum Error {
         remedy: String,
     },
     /// A file could not be read.
-    #[error("cannot read `{}`: {}", .path.display(), with_remedy(.reason, .remedy))]
+    #[error("cannot read `{}`: {}", shown(.path), with_remedy(.reason, .remedy))]
     Read {
         /// The file.
         path: PathBuf,
@@ -133,7 +136,7 @@ impl Error {
                 remedy,
                 ..
             } => (
-                format!("cannot read `{}`: {reason}", path.display()),
+                format!("cannot read `{}`: {reason}", shown(path)),
                 remedy.clone(),
             ),
             other => (other.to_string(), String::new()),
@@ -149,9 +152,15 @@ fn with_remedy(reason: &str, remedy: &str) -> String {
     }
 }
 
+impl From<Box<InputError>> for Error {
+    fn from(error: Box<InputError>) -> Self {
+        (*error).into()
+    }
+}
+
 impl From<InputError> for Error {
     fn from(error: InputError) -> Self {
-        Self::Input(Box::new(error))
+        Self::Input(Box::new(error.abridged()))
     }
 }
 
@@ -202,6 +211,18 @@ pub struct InputError {
 }
 
 impl InputError {
+    /// The same with at most so much of what a file holds in its words that a message stays one.
+    fn abridged(self) -> Self {
+        const MOST: usize = 2500;
+        let short = |text: String| -> String { shorten_words(&text).chars().take(MOST).collect() };
+        Self {
+            key: short(self.key),
+            message: short(self.message),
+            help: short(self.help),
+            ..self
+        }
+    }
+
     /// Line of the error, counted from 1.
     pub fn line(&self) -> usize {
         let end = self.span.start.min(self.text.len());

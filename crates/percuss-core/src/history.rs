@@ -116,6 +116,24 @@ pub struct Profile {
     pub elements: Vec<ElementState>,
 }
 
+/// Most elements in a profile of a history: a finer mesh than a picture can show is thinned out.
+pub const PROFILE_ELEMENTS: usize = 400;
+
+impl Profile {
+    /// The same with at most [`PROFILE_ELEMENTS`] elements.
+    #[must_use]
+    pub fn thinned(self) -> Self {
+        let stride = self.elements.len().div_ceil(PROFILE_ELEMENTS).max(1);
+        if stride == 1 {
+            return self;
+        }
+        Self {
+            time: self.time,
+            elements: self.elements.into_iter().step_by(stride).collect(),
+        }
+    }
+}
+
 /// Histories of a run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct History {

@@ -15,6 +15,7 @@ pub mod options;
 pub mod outcome;
 pub mod power;
 pub mod problem;
+pub mod quote;
 pub mod random;
 mod refusal;
 pub mod regime;

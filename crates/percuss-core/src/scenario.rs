@@ -9,6 +9,7 @@ use crate::{
     outcome::BandQuantity,
     problem::{EdgeSupport, Extensions, LayerInterface, Nose, RearFaceCondition},
     resistance::CustomResistance,
+    units::ResultUnit,
 };
 
 /// A case in SI units: projectile, target, impact velocity and options.
@@ -41,6 +42,8 @@ pub struct Scenario {
     pub extensions: Extensions,
     /// What was measured, for comparison; no model sees it.
     pub experiments: Vec<Measurement>,
+    /// Curves that were measured at this impact velocity, for comparison; no model sees them.
+    pub measured_curves: Vec<MeasuredCurve>,
     /// Which values that have a default the case gives.
     pub given: Given,
 }
@@ -69,6 +72,23 @@ pub struct Measurement {
     pub sources: Vec<String>,
     /// Remarks on it.
     pub note: String,
+}
+
+/// A curve that was measured against time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredCurve {
+    /// Name in tables and figures.
+    pub name: String,
+    /// Name of the gauge, for a quantity of gauges.
+    pub gauge: Option<String>,
+    /// Quantity: the name of its column in `history.csv` or `gauges.csv`, without the unit.
+    pub quantity: &'static str,
+    /// Unit of its kind in results.
+    pub unit: ResultUnit,
+    /// Times [s] and values in SI units; every time is later than the one before it.
+    pub points: Vec<(f64, f64)>,
+    /// Columns of its table that nothing reads.
+    pub unread_columns: Vec<String>,
 }
 
 /// A projectile.
@@ -148,10 +168,14 @@ pub struct Plate {
 impl Scenario {
     /// The same case at another impact velocity [m/s].
     pub fn at_impact_velocity(&self, impact_velocity: f64) -> Self {
-        Self {
+        let mut other = Self {
             impact_velocity,
             ..self.clone()
+        };
+        if impact_velocity != self.impact_velocity {
+            other.measured_curves.clear();
         }
+        other
     }
 
     /// Makes a column the target resistance model, unless the case gives one: a study varies a key that only a column has.

@@ -3,8 +3,10 @@
 //! Depend on `percuss`, which re-exports what users need.
 
 pub mod case;
+pub mod csv_table;
 pub mod inputs;
 pub mod lsdyna;
+pub mod material_tables;
 
 // What the input uses of the layers below.
 use percuss_core::{

@@ -15,16 +15,17 @@ use crate::{
     error::nearest,
     fdm::Fdm,
     particles::Particles,
+    units::shorten,
 };
 
 pub use choice::{ChosenModel, DEFAULT_MODEL, choose, default_model};
 pub use recommend::recommend;
 pub use recommend::{Choice, Recommendation};
 
-pub use crate::solver::memory;
 pub use crate::solver::{
     Checkpoints, Control, CostClass, Model, OnFrame, Progress, applicability, run, run_explained,
 };
+pub use crate::solver::{Estimate, memory, time_in_words};
 pub use crate::solver::{applicability_in, complete, run_in};
 
 /// All models. Adding one is one file and one line here.
@@ -73,7 +74,7 @@ pub fn model(name: &str) -> Result<&'static dyn Model, Error> {
         .find(|model| model.name() == name)
         .copied()
         .ok_or_else(|| Error::UnknownModel {
-            name: name.to_owned(),
+            name: shorten(name),
             suggestion: nearest(name, MODELS.iter().map(|model| model.name())),
             known: MODELS.iter().map(|model| model.name()).collect(),
         })

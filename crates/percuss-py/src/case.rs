@@ -5,13 +5,13 @@ use std::{
     sync::Arc,
 };
 
-use percuss::{Scenario, case::Document};
+use percuss::{Error, Scenario, case::Document, model};
 use pyo3::{
     prelude::*,
     types::{PyDict, PyType},
 };
 
-use crate::{errors::raise, si, tables};
+use crate::{errors::raise, tables};
 
 /// A case with its materials looked up.
 #[pyclass(frozen, module = "percuss._percuss")]
@@ -42,7 +42,7 @@ impl Case {
         Self::new(class, document, None)
     }
 
-    /// Reads a case from tables as a file has them; a plain number where a quantity is due is in SI units.
+    /// Reads a case from tables as a file has them; a plain number where a quantity is due is refused.
     #[classmethod]
     fn from_tables(
         class: &Bound<'_, PyType>,
@@ -50,8 +50,7 @@ impl Case {
         tables: &Bound<'_, PyDict>,
         folder: PathBuf,
     ) -> PyResult<Self> {
-        let mut table = tables::to_toml(tables)?;
-        si::add_units(&mut table);
+        let table = tables::to_toml(tables)?;
         Self::from_text(class, name, table.to_string(), folder)
     }
 
@@ -83,6 +82,16 @@ impl Case {
     #[getter]
     fn folder(&self) -> PathBuf {
         self.document.folder().unwrap_or(Path::new("")).to_owned()
+    }
+
+    /// Estimated cost of a run: memory [bytes], time steps and processor time [s].
+    fn estimate(&self, py: Python<'_>, model: Option<&str>) -> PyResult<(f64, f64, f64)> {
+        let failed = |error| raise(py, error);
+        let model = model::choose(model, &self.scenario).map_err(failed)?.model;
+        model::applicability(model, &self.scenario)
+            .map_err(|refusal| failed(Error::not_applicable(model.name(), refusal)))?;
+        let cost = model.estimate(&self.scenario);
+        Ok((cost.memory, cost.steps, cost.seconds))
     }
 
     /// The file; `None` for a case that comes from none.

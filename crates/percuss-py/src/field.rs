@@ -3,9 +3,9 @@
 use percuss::{
     history::{ELEMENT_COLUMNS, HistoryColumn, Read, SAMPLE_COLUMNS},
     summary::{FieldKind, RESULT_FIELDS},
-    units::ResultUnit,
+    units::{ResultUnit, UnitSystem},
 };
-use pyo3::prelude::*;
+use pyo3::{exceptions::PyValueError, prelude::*};
 
 /// A value with a name, which ends with its unit.
 #[pyclass(frozen, get_all, module = "percuss._percuss")]
@@ -52,6 +52,21 @@ pub fn element_columns() -> Vec<Field> {
 pub fn units() -> Vec<(&'static str, &'static str)> {
     let named = ResultUnit::NAMED.iter();
     named.map(|unit| (unit.suffix, unit.symbol)).collect()
+}
+
+/// Name, factor and unit of a column in a unit system; `None` where it stays as it is.
+#[pyfunction]
+pub fn in_units(name: &str, system: &str) -> PyResult<Option<(String, f64, &'static str)>> {
+    let Some(units) = UnitSystem::named(system) else {
+        let names: Vec<&str> = UnitSystem::all_names().collect();
+        return Err(PyValueError::new_err(format!(
+            "`{system}` is no unit system; unit systems: {}",
+            names.join(", ")
+        )));
+    };
+    let (_, own) = ResultUnit::split(name);
+    let converted = units.column(name);
+    Ok(converted.map(|(name, factor)| (name, factor, units.unit(own).symbol)))
 }
 
 fn column<R>(column: &HistoryColumn<R>) -> Field {

@@ -4,6 +4,7 @@ use std::{ops::ControlFlow, sync::Arc};
 
 use percuss::{
     Scenario,
+    case::ScenarioChange,
     check::Check,
     material::{FlowState, FlowStress, Material, OwnLaw, PreparedStrength, Strength, StrengthLaw},
     scenario::TargetBody,
@@ -36,10 +37,19 @@ pub struct Laws {
 impl Laws {
     /// The case with these laws; the same case where there are none.
     pub fn put_into(&self, py: Python<'_>, scenario: &Arc<Scenario>) -> Arc<Scenario> {
-        if self.projectile.is_none() && self.target.is_none() && self.resistance.is_none() {
+        if self.are_none() {
             return Arc::clone(scenario);
         }
-        let mut changed = (**scenario).clone();
+        Arc::new(self.changed(py, (**scenario).clone()))
+    }
+
+    /// Whether there is no law.
+    pub fn are_none(&self) -> bool {
+        self.projectile.is_none() && self.target.is_none() && self.resistance.is_none()
+    }
+
+    /// A case with these laws.
+    fn changed(&self, py: Python<'_>, mut changed: Scenario) -> Scenario {
         if let Some(law) = &self.projectile {
             let material = &changed.projectile.material;
             changed.projectile.material = self.with_law(py, material, law);
@@ -53,7 +63,15 @@ impl Laws {
         if let Some(law) = &self.resistance {
             changed.resistance = Some(resistance(law.clone_ref(py), self.error.clone()));
         }
-        Arc::new(changed)
+        changed
+    }
+
+    /// The laws as a change of every case of a study; `name` tells them from others.
+    pub fn as_change(self: Arc<Self>, name: String) -> ScenarioChange {
+        ScenarioChange {
+            name,
+            change: Arc::new(move |scenario| Python::attach(|py| self.changed(py, scenario))),
+        }
     }
 
     fn with_law(&self, py: Python<'_>, material: &Material, law: &Py<PyAny>) -> Arc<Material> {
@@ -80,7 +98,7 @@ impl Laws {
     }
 
     /// What the first law that failed raised.
-    pub fn into_error(self) -> Option<PyErr> {
+    pub fn take_error(&self) -> Option<PyErr> {
         self.error.take()
     }
 }
@@ -104,6 +122,10 @@ struct Prepared {
 impl Law {
     /// Flow stress at a strain, a strain rate [1/s] and a temperature [K].
     fn stress(&self, strain: f64, rate: f64, temperature: f64) -> f64 {
+        // What follows a failure counts for nothing.
+        if self.error.is_set() {
+            return STAND_IN;
+        }
         let called = Python::attach(|py| {
             let stress = self.function.call1(py, (strain, rate, temperature))?;
             let stress: f64 = stress.extract(py)?;

@@ -14,7 +14,6 @@ mod monitor;
 mod resistance;
 mod response;
 mod run;
-mod si;
 mod sweep;
 mod tables;
 
@@ -25,7 +24,7 @@ mod _percuss {
     use crate::{
         case::Case,
         command::command,
-        field::{Field, element_columns, result_fields, sample_columns, units},
+        field::{Field, element_columns, in_units, result_fields, sample_columns, units},
         history::Column,
         response::{Response, execute},
         run::{RunResult, run},

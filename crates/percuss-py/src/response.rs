@@ -1,6 +1,6 @@
 //! Results of commands: JSON, and samples as columns of numbers.
 
-use std::{collections::HashMap, ffi::OsString, path::PathBuf, sync::Arc};
+use std::{collections::HashMap, ffi::OsString, ops::ControlFlow, path::PathBuf, sync::Arc};
 
 use percuss::{
     calibrate::Calibration,
@@ -10,7 +10,9 @@ use percuss::{
 use percuss_cli::{Response as CommandResponse, ResponseData, VirtualFiles};
 use pyo3::prelude::*;
 
-use crate::{case::Case, errors::raise, history::Column, monitor::run_monitored, run::RunResult};
+use crate::{
+    case::Case, errors::raise, history::Column, law::Laws, monitor::run_monitored, run::RunResult,
+};
 
 /// Columns by name.
 pub type Numbers = Vec<(String, Vec<f64>)>;
@@ -22,16 +24,25 @@ pub struct Response {
     numbers: Arc<Numbers>,
 }
 
-/// Executes a command line; `cases` and `texts` replace files of these names.
+/// Executes a command line; `cases` and `texts` replace files of these names. Laws of `percuss uncertainty` go with a name.
 #[pyfunction]
-#[pyo3(signature = (words, cases, texts, progress=None))]
+#[pyo3(signature = (words, cases, texts, progress=None, projectile_law=None, target_law=None, law_name=String::new()))]
+#[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub fn execute(
     py: Python<'_>,
     words: Vec<OsString>,
     cases: HashMap<String, Py<Case>>,
     texts: HashMap<String, String>,
     progress: Option<Py<PyAny>>,
+    projectile_law: Option<Py<PyAny>>,
+    target_law: Option<Py<PyAny>>,
+    law_name: String,
 ) -> PyResult<Response> {
+    let laws = Arc::new(Laws {
+        projectile: projectile_law,
+        target: target_law,
+        ..Laws::default()
+    });
     let mut virtual_files = VirtualFiles::default();
     for (name, case) in cases {
         virtual_files.put(name, case.get().document.clone());
@@ -40,9 +51,14 @@ pub fn execute(
         let document = Document::new(&name, text);
         virtual_files.put(name, document);
     }
-    run_monitored(py, progress.as_ref(), |progress_state| {
-        let on_progress =
-            &mut |fraction: f64, words: &str| progress_state.on_progress(fraction, words);
+    if !laws.are_none() {
+        virtual_files.change = Some(Arc::clone(&laws).as_change(law_name));
+    }
+    let response = run_monitored(py, progress.as_ref(), |progress_state| {
+        let on_progress = &mut |fraction: f64, words: &str| -> ControlFlow<()> {
+            laws.flow()?;
+            progress_state.on_progress(fraction, words)
+        };
         let response =
             percuss_cli::execute(words, &virtual_files, progress_state.stop(), on_progress)?;
         let numbers = match &response.data {
@@ -54,7 +70,11 @@ pub fn execute(
             response,
             numbers: Arc::new(numbers),
         })
-    })
+    });
+    match laws.take_error() {
+        Some(error) => Err(error),
+        None => response,
+    }
 }
 
 #[pymethods]

@@ -81,7 +81,7 @@ pub fn run(
             })
         };
         let mut control = Control {
-            record,
+            record: record || !scenario.measured_curves.is_empty(),
             progress: Some(&mut on_progress),
             ..Control::default()
         };
@@ -91,7 +91,7 @@ pub fn run(
         result
     };
     let result = py.detach(|| with_threads(&mut compute));
-    if let Some(error) = laws.into_error() {
+    if let Some(error) = laws.take_error() {
         return Err(error);
     }
     let result = Arc::new(monitor.finish(py, result)?);

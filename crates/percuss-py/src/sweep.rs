@@ -1,6 +1,7 @@
 //! Sweeps, computed in this process or block by block on a cluster.
 
 use std::{
+    ops::ControlFlow,
     path::{Path, PathBuf},
     sync::{
         Arc, Mutex, PoisonError,
@@ -10,28 +11,44 @@ use std::{
 
 use percuss::{
     document::read_text,
-    sweep::{BatchKernel, Sweep as Loaded, SweepRow},
+    sweep::{BatchKernel, Kernel, Stopped, Sweep as Loaded, SweepRow, SweepRun},
 };
 use percuss_cli::Failure;
 use percuss_report::sweep::{Block, SweepFolder as Folder};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyBytes};
 
-use crate::{errors::raise, fork::with_threads, monitor::run_monitored};
+use crate::{errors::raise, fork::with_threads, law::Laws, monitor::run_monitored};
 
 /// A sweep that was read and checked.
 #[pyclass(frozen, module = "percuss._percuss")]
 pub struct Sweep {
     sweep: Loaded,
     path: PathBuf,
+    laws: Arc<Laws>,
 }
 
 #[pymethods]
 impl Sweep {
-    /// Reads a sweep file and the case that it names.
+    /// Reads a sweep file and the case that it names; strength laws go with a name that tells them from others.
     #[new]
-    fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let sweep = Loaded::load(&path).map_err(|error| raise(py, error))?;
-        Ok(Self { sweep, path })
+    #[pyo3(signature = (path, projectile_law=None, target_law=None, law_name=String::new()))]
+    fn new(
+        py: Python<'_>,
+        path: PathBuf,
+        projectile_law: Option<Py<PyAny>>,
+        target_law: Option<Py<PyAny>>,
+        law_name: String,
+    ) -> PyResult<Self> {
+        let mut sweep = Loaded::load(&path).map_err(|error| raise(py, error))?;
+        let laws = Arc::new(Laws {
+            projectile: projectile_law,
+            target: target_law,
+            ..Laws::default()
+        });
+        if !laws.are_none() {
+            sweep = sweep.with_change(Arc::clone(&laws).as_change(law_name));
+        }
+        Ok(Self { sweep, path, laws })
     }
 
     /// Number of shots.
@@ -70,6 +87,25 @@ impl Sweep {
         match computed.map_err(|error| raise(py, error))? {
             Some(computed) => Ok(PyBytes::new(py, &computed.content)),
             None => Err(PyValueError::new_err("the block was stopped")),
+        }
+    }
+}
+
+/// A kernel whose rows count only while no law in Python has failed.
+struct LawKernel<'a> {
+    kernel: BatchKernel,
+    laws: &'a Laws,
+}
+
+impl Kernel for LawKernel<'_> {
+    fn rows(&self, runs: Vec<SweepRun>, stop: &AtomicBool) -> Result<Vec<SweepRow>, Stopped> {
+        let rows = self.kernel.rows(runs, stop);
+        match self.laws.flow() {
+            ControlFlow::Continue(()) => rows,
+            ControlFlow::Break(()) => {
+                stop.store(true, Ordering::Relaxed);
+                Err(Stopped)
+            }
         }
     }
 }
@@ -130,13 +166,14 @@ pub fn compute_sweep(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<bool> {
+    let laws = &sweep.get().laws;
     let (sweep, folder) = (&sweep.get().sweep, folder.get().folder()?);
     let blocks = folder.missing(part, parts);
     let due: u64 = blocks
         .iter()
         .map(|block| folder.manifest().shots_in(*block))
         .sum();
-    run_monitored(py, progress.as_ref(), |progress_state| {
+    let computed = run_monitored(py, progress.as_ref(), |progress_state| {
         let done = AtomicU64::new(0);
         let on_progress = |rows: &[SweepRow]| {
             let done = done.fetch_add(rows.len() as u64, Ordering::Relaxed) + rows.len() as u64;
@@ -151,9 +188,16 @@ pub fn compute_sweep(
                 message: format!("cannot start the threads: {error}"),
                 help: "ask for fewer threads".to_owned(),
             })?;
-        let kernel = BatchKernel::new(sweep.model);
+        let kernel = LawKernel {
+            kernel: BatchKernel::new(sweep.model),
+            laws,
+        };
         Ok(pool.install(|| {
             folder.compute(sweep, &kernel, &blocks, progress_state.stop(), &on_progress)
         })?)
-    })
+    });
+    match laws.take_error() {
+        Some(error) => Err(error),
+        None => computed,
+    }
 }

@@ -77,6 +77,17 @@ impl Reader {
                 .map(|item| self.value(key, &item?, depth + 1));
             return Ok(Value::Array(items.collect::<PyResult<_>>()?));
         }
+        // Quantities of pint and astropy, whose lists would lose their unit.
+        let quantity = item
+            .py()
+            .import("percuss.quantities")?
+            .call_method1("text", (item,));
+        let quantity = quantity.map_err(|error| {
+            PyValueError::new_err(format!("`{key}`: {}", error.value(item.py())))
+        })?;
+        if !quantity.is_none() {
+            return self.value(key, &quantity, depth);
+        }
         // Arrays and numbers of NumPy, and whatever else knows how to become Python's own.
         if let Ok(own) = item.call_method0("tolist") {
             return self.value(key, &own, depth + 1);

@@ -14,6 +14,9 @@ from typing import Any
 
 import percuss
 import pytest
+
+pytest.importorskip("distributed", reason="Dask is not installed")
+
 from distributed import Client, LocalCluster
 from test_sweep import contents, sweep_file
 
@@ -171,3 +174,15 @@ def test_a_scheduler_that_is_lost_is_said_and_the_sweep_goes_on(
         for process in running:
             process.kill()
             process.wait()
+
+
+def depth_of(case: percuss.Case) -> float | None:
+    return percuss.run(case).depth_of_penetration_mm
+
+
+def test_runs_are_mapped_over_a_cluster(cluster: Cluster) -> None:
+    """The example of the page about Python."""
+    case = percuss.load("cases/paper-table1/scenario.toml")
+    cases = [case.replace({"projectile.impact_velocity": f"{speed} m/s"}) for speed in (200, 230, 400)]
+    depths = cluster[1].gather(cluster[1].map(lambda case: percuss.run(case).depth_of_penetration_mm, cases))
+    assert depths == [depth_of(case) for case in cases]

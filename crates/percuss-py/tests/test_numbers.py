@@ -64,7 +64,7 @@ def test_a_run_without_a_model_takes_the_one_of_the_program(program: Program, tm
 
 def test_the_axisymmetric_answer_is_that_of_the_program(program: Program, tmp_path: Path) -> None:
     case = percuss.Case(
-        projectile={"material": "copper", "length": "5 mm", "diameter": "5 mm", "impact_velocity": 300.0},
+        projectile={"material": "copper", "length": "5 mm", "diameter": "5 mm", "impact_velocity": "300 m/s"},
         target={"material": "aluminium-2024-t351", "thickness": "25 mm"},
         axi={"target_radius": "8 mm", "target_depth": "8 mm"},
     )

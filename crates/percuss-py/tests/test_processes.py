@@ -37,3 +37,28 @@ def test_other_processes_give_the_same_numbers(method: str, tmp_path: object) ->
         file.write(SCRIPT)
     done = subprocess.run([sys.executable, script, method], capture_output=True, text=True, timeout=300, cwd=ROOT)
     assert done.stdout == "equal\n", done.stderr
+
+
+EXECUTOR = """
+from concurrent.futures import ProcessPoolExecutor
+import percuss
+
+def depth(case):
+    return percuss.run(case).depth_of_penetration_mm
+
+if __name__ == "__main__":
+    case = percuss.load("cases/paper-table1/scenario.toml")
+    cases = [case.replace({"projectile.impact_velocity": f"{speed} m/s"}) for speed in (200, 230, 400)]
+    with ProcessPoolExecutor(2) as pool:
+        depths = list(pool.map(depth, cases))
+    assert depths == [depth(case) for case in cases], depths
+    print("equal")
+"""
+
+
+def test_an_executor_of_processes_gives_the_same_numbers(tmp_path: object) -> None:
+    script = f"{tmp_path}/script.py"
+    with open(script, "w", encoding="utf-8") as file:
+        file.write(EXECUTOR)
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=300, cwd=ROOT)
+    assert done.stdout == "equal\n", done.stderr

@@ -106,7 +106,8 @@ def test_records_are_shown_and_drawn(records: dict[type[Record], list[Record]], 
         for i, record in enumerate(all_of_kind):
             text = record._repr_html_()
             assert text.startswith("<table>") and text.endswith("</table>") and "<script" not in text
-            assert repr(record).startswith(type(record).__name__)
+            assert repr(record).startswith(f"{type(record).__name__}(")
+            assert not isinstance(record, percuss.Result) or len(repr(record)) < 600
             if hasattr(record, "plot") and not (isinstance(record, percuss.RunResult) and i == 1):
                 axes = record.plot()
                 assert (axes.get_xlabel() or axes.get_title()) and (axes.lines or axes.patches)

@@ -157,7 +157,7 @@ def test_cases_and_priors_in_code_are_those_of_files(program: Program, tmp_path:
             target={"rigid_wall": True},
             experiments=[{"impact_velocity": velocity, "projectile_final_length": length, "source": "wilkins1973"}],
         )
-        for i, (velocity, length) in enumerate([(183.0, 0.01681), (150.0, 0.0185)])
+        for i, (velocity, length) in enumerate([("183 m/s", "16.81 mm"), ("150 m/s", "18.5 mm")])
     ]
     key = "taylor.dynamic_yield_stress"
     prior = {"normal": {"mean": "400 MPa", "standard_deviation": "200 MPa", "min": "50 MPa"}}

@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("{}: {}", files.join(", "), figure.title);
     }
     let drawn = start.elapsed();
-    for file in percuss_report::write_histories(folder, &result)? {
+    for file in percuss_report::write_histories(folder, &result, None)? {
         println!("{}", file.display());
     }
     println!(

@@ -20,7 +20,7 @@ const DASHES: &str = "5 2.5";
 /// Opacity of the area of a band.
 const BAND_OPACITY: f64 = 0.18;
 /// Most characters of a name in the legend.
-const LEGEND_CHARS: usize = 30;
+const LEGEND_CHARS: usize = 34;
 /// Shapes of markers, in the order in which series take them.
 const MARKERS: [MarkerShape; 9] = [
     MarkerShape::Circle,
@@ -43,6 +43,7 @@ pub struct LineChart {
     pub(crate) series: Vec<Series>,
     pub(crate) marks: Vec<Mark>,
     pub(crate) true_to_scale: bool,
+    pub(crate) square: bool,
 }
 
 chart_methods!(LineChart, marks);
@@ -57,6 +58,7 @@ impl LineChart {
             series: Vec::new(),
             marks: Vec::new(),
             true_to_scale: false,
+            square: false,
         }
     }
 
@@ -78,12 +80,19 @@ impl LineChart {
         self
     }
 
+    /// Makes the plot as high as wide.
+    pub(crate) fn square(mut self) -> Self {
+        self.square = true;
+        self
+    }
+
     /// Draws the chart.
     pub fn draw(&self) -> Figure {
         let (x_extent, y_extent) = self.extents();
         let mut frame = Frame {
             legend: self.legend(),
             marks: mark::reference_lines(&self.marks),
+            square: self.square,
             ..Frame::new(&self.head, [&self.x, &self.y], (x_extent, y_extent))
         };
         let (mut x, mut y) = (self.x.clone(), self.y.clone());

@@ -3,6 +3,8 @@
 #[cfg(feature = "parquet")]
 mod parquet_file;
 
+use percuss::units::UnitSystem;
+
 use crate::ReportError;
 
 #[cfg(feature = "parquet")]
@@ -50,6 +52,27 @@ impl<R> Column<R> {
         Self {
             name: name.into(),
             value: Value::Optional(Box::new(value)),
+        }
+    }
+
+    /// The same in the unit of a system, if there is one; texts and counts stay as they are.
+    #[must_use]
+    pub fn in_units(self, units: Option<UnitSystem>) -> Self
+    where
+        R: 'static,
+    {
+        let converted = units.and_then(|units| units.column(&self.name));
+        match (converted, self.value) {
+            (Some((name, factor)), Value::Float(read)) => {
+                Self::float(name, move |row| factor * read(row))
+            }
+            (Some((name, factor)), Value::Optional(read)) => {
+                Self::optional(name, move |row| read(row).map(|value| factor * value))
+            }
+            (_, value) => Self {
+                name: self.name,
+                value,
+            },
         }
     }
 

@@ -6,6 +6,7 @@ use crate::{
     Axis, Chart, Figure, LineChart, Mark, RowChart, Series, Style,
     caption::caption,
     caption::significant,
+    curve_figures::curve_charts,
     names::{capitalized, with_unit},
     palette,
 };
@@ -15,15 +16,25 @@ const RECOMMENDED: &str = "★";
 /// Width of the line of a model where it is recommended [px].
 const EMPHASIS: f64 = 4.0;
 
-/// Draws the main quantity of a comparison as `compare`: versus impact velocity, or one row per model at a single velocity.
+/// Draws the main quantity of a comparison as `compare`: versus impact velocity, or one row per model at a single velocity. Measured
+/// curves follow as `measured-curve-1` and so on, with those of the models.
 ///
-/// A line is interrupted where its model has no result, and thick where the model is recommended. `None` when no model gives the
-/// quantity.
-pub fn compare_figure(scenario: &Scenario, comparison: &Comparison) -> Option<Figure> {
-    compare_chart(scenario, comparison).map(|chart| chart.draw())
+/// A line is interrupted where its model has no result, and thick where the model is recommended. There is no `compare` when no model
+/// gives the quantity.
+pub fn compare_figures(scenario: &Scenario, comparison: &Comparison) -> Vec<Figure> {
+    let main = compare_chart(scenario, comparison).map(|chart| chart.draw());
+    let own = scenario.impact_velocity;
+    let records = comparison.results.iter();
+    let records: Vec<&ResultRecord> = records
+        .filter(|record| record.impact_velocity_m_s == own)
+        .collect();
+    let curves = curve_charts(scenario, &records);
+    main.into_iter()
+        .chain(curves.iter().map(LineChart::draw))
+        .collect()
 }
 
-/// The chart that [`compare_figure`] draws.
+/// The chart `compare` of [`compare_figures`]; `None` when no model gives the quantity.
 pub fn compare_chart(scenario: &Scenario, comparison: &Comparison) -> Option<Chart> {
     let quantity = *comparison.quantities.first()?;
     let given = |record: &ResultRecord| record.value(quantity).is_some();

@@ -6,6 +6,7 @@ use percuss::{
     compare::Comparison,
     outcome::{Band, BandQuantity},
     summary::ResultRecord,
+    units::UnitSystem,
 };
 
 use crate::{
@@ -24,7 +25,7 @@ struct Entry {
 /// Writes `compare.csv` and `compare.parquet` to a folder, which is made if it does not exist: one row per velocity and model.
 /// Files of these names are replaced.
 ///
-/// Column names end with the unit; both formats have the same columns and values. What a model does not give is empty or
+/// Column names end with the unit, of a system where one is given; both formats have the same columns and values. What a model does not give is empty or
 /// null.
 ///
 /// # Errors
@@ -32,8 +33,9 @@ struct Entry {
 pub fn write_comparison(
     folder: &Path,
     comparison: &Comparison,
+    units: Option<UnitSystem>,
 ) -> Result<Vec<PathBuf>, ReportError> {
-    replace_files(folder, comparison_files(comparison)?)
+    replace_files(folder, comparison_files(comparison, units)?)
 }
 
 /// The files that [`write_comparison`] writes: name and content of each.
@@ -42,6 +44,7 @@ pub fn write_comparison(
 /// [`ReportError::Table`].
 pub fn comparison_files(
     comparison: &Comparison,
+    units: Option<UnitSystem>,
 ) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
     let entries: Vec<Entry> = (0..comparison.regime.len())
         .flat_map(|i| {
@@ -58,7 +61,9 @@ pub fn comparison_files(
                 })
         })
         .collect();
-    column::files(["compare.csv", "compare.parquet"], &columns(), &entries)
+    let columns = columns().into_iter();
+    let columns: Vec<Column<Entry>> = columns.map(|column| column.in_units(units)).collect();
+    column::files(["compare.csv", "compare.parquet"], &columns, &entries)
 }
 
 fn columns() -> Vec<Column<Entry>> {

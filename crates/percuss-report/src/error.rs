@@ -2,7 +2,7 @@
 
 use std::{io, path::PathBuf};
 
-use percuss::{history::History, outcome::RunResult};
+use percuss::{history::History, outcome::RunResult, quote::shown};
 
 /// Any failure of this crate.
 #[derive(Debug, thiserror::Error)]
@@ -17,7 +17,7 @@ pub enum ReportError {
         model: &'static str,
     },
     /// A file or folder could not be written.
-    #[error("cannot write `{}`: {source}", .path.display())]
+    #[error("cannot write `{}`: {source}", shown(.path))]
     Write {
         /// The file or folder.
         path: PathBuf,
@@ -26,7 +26,7 @@ pub enum ReportError {
         source: io::Error,
     },
     /// A file that belongs to a series of fields could not be read.
-    #[error("cannot read `{}`: {reason}", .path.display())]
+    #[error("cannot read `{}`: {reason}", shown(.path))]
     Read {
         /// The file.
         path: PathBuf,
@@ -34,7 +34,7 @@ pub enum ReportError {
         reason: String,
     },
     /// A folder of a sweep is not what it should be.
-    #[error("`{}`: {reason}", .path.display())]
+    #[error("`{}`: {reason}", shown(.path))]
     Sweep {
         /// The folder or file.
         path: PathBuf,

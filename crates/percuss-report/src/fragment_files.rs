@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use percuss::{fragments::FragmentRecord, outcome::RunResult};
+use percuss::{fragments::FragmentRecord, outcome::RunResult, units::UnitSystem};
 
 use crate::{
     ReportError,
@@ -15,13 +15,20 @@ use crate::{
 ///
 /// # Errors
 /// [`ReportError::Write`]; [`ReportError::Table`].
-pub fn write_fragments(folder: &Path, result: &RunResult) -> Result<Vec<PathBuf>, ReportError> {
+pub fn write_fragments(
+    folder: &Path,
+    result: &RunResult,
+    units: Option<UnitSystem>,
+) -> Result<Vec<PathBuf>, ReportError> {
     if result.fragments.is_empty() {
         return Ok(Vec::new());
     }
     let name = "fragments.csv";
     let rows: Vec<FragmentRecord> = result.fragments.iter().map(Into::into).collect();
-    let content = column::csv(name, &columns(), &rows)?;
+    let columns = columns().into_iter();
+    let columns: Vec<Column<FragmentRecord>> =
+        columns.map(|column| column.in_units(units)).collect();
+    let content = column::csv(name, &columns, &rows)?;
     Ok(vec![replace_file(folder, name, &content)?])
 }
 

@@ -58,6 +58,8 @@ pub(crate) struct Frame<'a> {
     pub(crate) x_extent: (f64, f64),
     pub(crate) y_extent: (f64, f64),
     pub(crate) height: f64,
+    /// Whether the plot is as high as wide, by the height of the figure.
+    pub(crate) square: bool,
     /// Space at the right that the content draws in itself, in place of a legend [px].
     pub(crate) right_margin: Option<f64>,
     pub(crate) legend: Vec<LegendEntry>,
@@ -78,6 +80,7 @@ impl<'a> Frame<'a> {
             x_extent,
             y_extent,
             height: HEIGHT,
+            square: false,
             right_margin: None,
             legend: Vec::new(),
             marks: Vec::new(),
@@ -86,10 +89,14 @@ impl<'a> Frame<'a> {
 
     /// Draws axes and content; `finish` may add to the drawing, for which it gets the place of the axes.
     pub(crate) fn draw(
-        self,
+        mut self,
         plots: Vec<Plot>,
         finish: impl FnOnce(&mut Scene, &ComputedLayout),
     ) -> Figure {
+        if self.square {
+            let place = ComputedLayout::from_layout(&self.layout());
+            self.height += place.plot_width() - place.plot_height();
+        }
         let layout = self.layout();
         let place = ComputedLayout::from_layout(&layout);
         let mut scene = render_multiple(plots, layout);

@@ -8,7 +8,7 @@ use percuss::{
         Sample,
     },
     outcome::RunResult,
-    units::ResultUnit as Unit,
+    units::{ResultUnit as Unit, UnitSystem},
 };
 
 use crate::{
@@ -25,12 +25,16 @@ use crate::{
 /// - `final-profile.csv`: that state at the end;
 /// - `gauges.csv` and `gauges.parquet`, where the case has gauges: a row for each gauge and time.
 ///
-/// Column names end with the unit; both formats have the same columns and values.
+/// Column names end with the unit, of a system where one is given; both formats have the same columns and values.
 ///
 /// # Errors
 /// [`ReportError::NoHistory`] when the run kept no history; [`ReportError::Write`]; [`ReportError::Table`].
-pub fn write_histories(folder: &Path, result: &RunResult) -> Result<Vec<PathBuf>, ReportError> {
-    history_files(result)?
+pub fn write_histories(
+    folder: &Path,
+    result: &RunResult,
+    units: Option<UnitSystem>,
+) -> Result<Vec<PathBuf>, ReportError> {
+    history_files(result, units)?
         .into_iter()
         .map(|(name, content)| replace_file(folder, name, &content))
         .collect()
@@ -40,10 +44,13 @@ pub fn write_histories(folder: &Path, result: &RunResult) -> Result<Vec<PathBuf>
 ///
 /// # Errors
 /// [`ReportError::NoHistory`] when the run kept no history; [`ReportError::Table`].
-pub fn history_files(result: &RunResult) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
+pub fn history_files(
+    result: &RunResult,
+    units: Option<UnitSystem>,
+) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
     let history = history_of(result)?;
-    let samples = sample_columns();
-    let elements = element_columns();
+    let samples = converted(sample_columns(), units);
+    let elements = converted(element_columns(), units);
     let rows = |profile: &Profile| {
         let time = profile.time;
         let states = profile.elements.clone().into_iter();
@@ -66,7 +73,7 @@ pub fn history_files(result: &RunResult) -> Result<Vec<(&'static str, Vec<u8>)>,
     if !history.gauges.is_empty() {
         let (csv, parquet) = ("gauges.csv", "gauges.parquet");
         let rows: Vec<Place> = history.gauges.iter().flat_map(readings).collect();
-        let columns = gauge_columns();
+        let columns = converted(gauge_columns(), units);
         files.push((csv, column::csv(csv, &columns, &rows)?));
         files.extend(column::parquet(parquet, &columns, &rows)?);
     }
@@ -105,6 +112,12 @@ fn element_columns() -> Vec<Column<Place>> {
     let columns = ELEMENT_COLUMNS.iter();
     let columns = columns.map(|of| column(of, |place: &Place| &place.state));
     std::iter::once(time).chain(columns).collect()
+}
+
+/// Columns in the units of a system, if there is one.
+fn converted<R: 'static>(columns: Vec<Column<R>>, units: Option<UnitSystem>) -> Vec<Column<R>> {
+    let columns = columns.into_iter();
+    columns.map(|column| column.in_units(units)).collect()
 }
 
 /// A column of a file, in the unit of its name.

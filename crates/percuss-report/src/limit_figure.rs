@@ -8,7 +8,7 @@ use percuss::{
 
 use crate::{
     Axis, Chart, Figure, LineChart, Mark, Series, Style, caption::caption, caption::significant,
-    palette,
+    palette, result_rows::with_uncertainty,
 };
 
 /// Points of a smooth curve.
@@ -55,6 +55,16 @@ pub fn limit_chart(scenario: &Scenario, limits: &Limits) -> Option<Chart> {
                 .color(palette::EXPERIMENT)
                 .error_bars(measured.iter().map(|(_, m)| bar(m.uncertainty))),
         );
+    }
+    let axisymmetric = limits.axisymmetric.as_ref();
+    if let Some((value, half_width)) =
+        axisymmetric.and_then(|l| l.ballistic_limit_m_s.zip(l.uncertainty_m_s))
+    {
+        let name = format!(
+            "axisymmetric limit {}",
+            with_uncertainty(value, half_width, "m/s")
+        );
+        chart = chart.mark(Mark::vertical(name, value));
     }
     if let Some((value, _)) = limits.measured() {
         let name = format!("measured limit {} m/s", significant(value));

@@ -36,7 +36,10 @@ pub fn replace_files(folder: &Path, files: Vec<File>) -> Result<Vec<PathBuf>, Re
 /// Writes a file as [`replace_file`] does in a folder that is there, and it is on the disk when this returns: it outlives a loss of power.
 ///
 /// A folder that someone removed is not made again: it would lack whatever else it held.
-pub(crate) fn replace_file_durably(
+///
+/// # Errors
+/// [`ReportError::Write`].
+pub fn replace_file_durably(
     folder: &Path,
     name: &str,
     write: impl FnOnce(&mut fs::File) -> io::Result<()>,

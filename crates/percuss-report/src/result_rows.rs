@@ -2,10 +2,14 @@
 
 use percuss::{
     Scenario,
+    measured_curves::CurveComparison,
     outcome::{Detail, Numerics, RunResult},
     summary::{RESULT_FIELDS, ResultNumber, ResultRecord},
     units::significant,
 };
+
+/// Digits of a number in the terminal.
+pub const DIGITS: usize = 5;
 
 /// Label, and value with its unit.
 pub type Row = (String, String);
@@ -19,8 +23,13 @@ impl Rows {
     }
 }
 
-/// Outcome and all result numbers of tables, in the order of the record.
-pub fn outcome_rows(scenario: &Scenario, result: &RunResult, record: &ResultRecord) -> Vec<Row> {
+/// Outcome and all result numbers of tables to so many digits, in the order of the record.
+pub fn outcome_rows(
+    scenario: &Scenario,
+    result: &RunResult,
+    record: &ResultRecord,
+    digits: usize,
+) -> Vec<Row> {
     let mut rows = Rows::default();
     rows.add("outcome", result.outcome.describe());
     if let Some(criterion) = &record.criterion {
@@ -30,7 +39,7 @@ pub fn outcome_rows(scenario: &Scenario, result: &RunResult, record: &ResultReco
     for field in RESULT_FIELDS {
         match (&field.number, field.name) {
             (Some(result_number), _) if result_number.role.is_result() => {
-                if let Some(value) = in_table(result_number, scenario, result, record) {
+                if let Some(value) = in_table(result_number, scenario, result, record, digits) {
                     rows.add(result_number.label, value);
                 }
             }
@@ -48,6 +57,7 @@ fn in_table(
     scenario: &Scenario,
     result: &RunResult,
     record: &ResultRecord,
+    digits: usize,
 ) -> Option<String> {
     let rod = &scenario.projectile;
     let initial = match of.name {
@@ -66,10 +76,14 @@ fn in_table(
     };
     let unit = of.unit.symbol;
     Some(match (initial, of.name) {
-        (Some(initial), _) => of_initial(value, of.unit.of_si(initial), unit),
-        (None, "residual_velocity_m_s") if value < 0.0 => number(value, unit) + " (backwards)",
-        (None, "residual_velocity_m_s") if value > 0.0 => number(value, unit) + " (forward)",
-        _ => number(value, unit),
+        (Some(initial), _) => of_initial(value, of.unit.of_si(initial), unit, digits),
+        (None, "residual_velocity_m_s") if value < 0.0 => {
+            to_digits(value, unit, digits) + " (backwards)"
+        }
+        (None, "residual_velocity_m_s") if value > 0.0 => {
+            to_digits(value, unit, digits) + " (forward)"
+        }
+        _ => to_digits(value, unit, digits),
     })
 }
 
@@ -97,6 +111,49 @@ fn band(record: &ResultRecord) -> Option<Row> {
         band.basis
     );
     Some((format!("range of {}", band.quantity.describe()), range))
+}
+
+/// Differences from measured curves, and columns of their tables that nothing reads.
+pub fn curve_rows(record: &ResultRecord) -> Vec<Row> {
+    let row = |curve: &CurveComparison| (curve_label(curve), curve_words(curve));
+    record.measured_curves.iter().map(row).collect()
+}
+
+/// Name, gauge and quantity of a measured curve.
+pub fn curve_label(curve: &CurveComparison) -> String {
+    let quantity = curve.quantity.replace('_', " ");
+    match &curve.gauge {
+        Some(gauge) => format!("{}: {quantity} at {gauge}", curve.name),
+        None => format!("{}: {quantity}", curve.name),
+    }
+}
+
+fn curve_words(curve: &CurveComparison) -> String {
+    let mut words = match (curve.rms_difference, curve.largest_difference) {
+        (Some(rms), Some(largest)) => {
+            let part = curve.relative_rms_difference;
+            let part = part.map_or_else(String::new, |part| {
+                format!(" ({} %)", significant(100.0 * part, 3))
+            });
+            let rounded = |value: f64| format!("{} {}", significant(value, 3), curve.unit);
+            let time = |time: Option<f64>| significant(time.unwrap_or_default(), 4);
+            format!(
+                "RMS difference {}{part}, largest {}, from {} to {} us without a shift of time",
+                rounded(rms),
+                rounded(largest),
+                time(curve.from_us),
+                time(curve.to_us),
+            )
+        }
+        _ => format!(
+            "not compared: {}",
+            curve.reason.as_deref().unwrap_or_default()
+        ),
+    };
+    if !curve.unread_columns.is_empty() {
+        words += &format!("; columns not read: {}", curve.unread_columns.join(", "));
+    }
+    words
 }
 
 /// Numbers that are specific to the model.
@@ -135,7 +192,11 @@ pub fn balance_rows(numerics: &Numerics, end_time: f64) -> Vec<Row> {
 
 /// A number to five digits with its unit.
 pub fn number(value: f64, unit: &str) -> String {
-    format!("{} {unit}", significant(value, 5))
+    to_digits(value, unit, DIGITS)
+}
+
+fn to_digits(value: f64, unit: &str, digits: usize) -> String {
+    format!("{} {unit}", significant(value, digits))
         .trim_end()
         .to_owned()
 }
@@ -153,12 +214,16 @@ pub fn with_uncertainty(value: f64, uncertainty: f64, unit: &str) -> String {
     format!("{value:.decimals$} ± {uncertainty:.decimals$} {unit}")
 }
 
-fn of_initial(value: f64, initial: f64, unit: &str) -> String {
+fn of_initial(value: f64, initial: f64, unit: &str, digits: usize) -> String {
+    let share = value / initial;
+    let share = match digits {
+        DIGITS.. => percentage(share),
+        _ => significant(100.0 * share, digits),
+    };
     format!(
-        "{} ({} % of {})",
-        number(value, unit),
-        percentage(value / initial),
-        number(initial, unit)
+        "{} ({share} % of {})",
+        to_digits(value, unit, digits),
+        to_digits(initial, unit, digits)
     )
 }
 

@@ -3,12 +3,14 @@
 use percuss::{
     Scenario,
     outcome::{BandQuantity, RunResult},
+    summary::ResultRecord,
 };
 
 use crate::{
     Chart, Figure, ReportError,
     axial_figures::{self, Along},
     caption::caption,
+    curve_figures::curve_charts,
     error::history_of,
     measured,
     shape_figure::shape_chart,
@@ -21,7 +23,8 @@ const CELLS: [usize; 2] = [300, 220];
 /// Draws all figures that a result has data for.
 ///
 /// Against time: `depth-time` (a target that can be penetrated), `length-time` (a rigid wall, or a projectile that
-/// erodes), `velocity-time`, `force-time`, `energy-time`, and `gauge-stress-time` and `gauge-velocity-time` (a case with gauges). Along the axis: `strain-profile`, `temperature-profile` (where anything became hotter), `stress-xt` and
+/// erodes), `velocity-time`, `force-time`, `energy-time`, `gauge-stress-time` and `gauge-velocity-time` (a case with gauges), and
+/// `measured-curve-1` and so on (a case with measured curves). Along the axis: `strain-profile`, `temperature-profile` (where anything became hotter), `stress-xt` and
 /// `rod-shape`, or `final-shape` of a two-dimensional model. A run without motion has only `strain-profile` and `rod-shape`.
 ///
 /// # Errors
@@ -63,6 +66,11 @@ pub fn run_charts(
         charts.extend(time_figures::energy(history, &caption).map(Chart::from));
         let gauges = time_figures::gauges(history, &caption);
         charts.extend(gauges.into_iter().map(Chart::from));
+        if !scenario.measured_curves.is_empty() {
+            let record = ResultRecord::new(scenario, result);
+            let curves = curve_charts(scenario, &[&record]);
+            charts.extend(curves.into_iter().map(Chart::from));
+        }
     }
     let along = match result.shapes {
         Some(_) => Along::Space,

@@ -130,7 +130,7 @@ fn a_result_without_history_says_what_to_do() {
     let folder = tempfile::tempdir().unwrap();
     let errors: [ReportError; 2] = [
         run_figures(&scenario, &result).unwrap_err(),
-        write_histories(folder.path(), &result).unwrap_err(),
+        write_histories(folder.path(), &result, None).unwrap_err(),
     ];
     for error in errors {
         assert!(
@@ -165,7 +165,7 @@ fn csv_and_parquet_hold_the_same_columns_and_values() {
     let (_, result) = run(EROSION);
     let history = result.history.as_ref().unwrap();
     let folder = tempfile::tempdir().unwrap();
-    let files = write_histories(folder.path(), &result).unwrap();
+    let files = write_histories(folder.path(), &result, None).unwrap();
     let expected = [
         "history.csv",
         "history.parquet",

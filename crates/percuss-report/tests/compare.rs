@@ -12,7 +12,7 @@ use percuss::{
     regime::{ProjectileRegime, TargetKind},
     validity::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
-use percuss_report::{compare_figure, write_comparison};
+use percuss_report::{compare_figures, write_comparison};
 
 /// A model that gives `scale` times a depth that grows with the speed.
 struct Fake {
@@ -143,7 +143,7 @@ fn sweep() -> Vec<f64> {
 #[test]
 fn every_model_with_a_value_has_its_line() {
     let (scenario, comparison) = comparison(CASE, &sweep());
-    let figure = compare_figure(&scenario, &comparison).unwrap();
+    let figure = compare_figures(&scenario, &comparison).remove(0);
     assert_eq!(figure.name, "compare");
     for text in [
         "chain",
@@ -166,7 +166,7 @@ fn every_model_with_a_value_has_its_line() {
 #[test]
 fn one_velocity_gives_one_row_per_model() {
     let (scenario, comparison) = comparison(CASE, &[1000.0]);
-    let figure = compare_figure(&scenario, &comparison).unwrap();
+    let figure = compare_figures(&scenario, &comparison).remove(0);
     for text in ["chain", "tate ★", "experiment", "Depth of penetration (mm)"] {
         assert!(figure.svg.contains(&format!(">{text}</text>")), "{text}");
     }
@@ -184,14 +184,14 @@ fn one_velocity_gives_one_row_per_model() {
     let wall = wall.split("[[").next().unwrap();
     let (scenario, mut comparison) = self::comparison(wall, &[1000.0]);
     comparison.results.retain(|record| record.model == "never");
-    assert!(compare_figure(&scenario, &comparison).is_none());
+    assert!(compare_figures(&scenario, &comparison).is_empty());
 }
 
 #[test]
 fn files_have_a_row_a_speed_and_model() {
     let (_, comparison) = comparison(CASE, &[500.0, 1000.0]);
     let folder = tempfile::tempdir().unwrap();
-    let [csv, parquet] = write_comparison(folder.path(), &comparison)
+    let [csv, parquet] = write_comparison(folder.path(), &comparison, None)
         .unwrap()
         .try_into()
         .unwrap();

@@ -66,7 +66,7 @@ fn file(
         )
     };
     let Some(figure) = name.strip_suffix(".svg") else {
-        let tables = history_files(&result)?;
+        let tables = history_files(&result, None)?;
         let found = tables.into_iter().find(|(table, _)| *table == name);
         let (_, content) = found.ok_or_else(unknown)?;
         let kind = match name.ends_with(".csv") {

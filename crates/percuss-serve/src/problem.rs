@@ -9,6 +9,10 @@ use serde::Serialize;
 
 use crate::http;
 
+/// Characters of a line that are shown at most, and of them before the place.
+const MOST: usize = 240;
+const BEFORE: usize = 80;
+
 /// Message, place and remedy.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Problem {
@@ -137,11 +141,17 @@ impl Place {
         let line_start = text[..start].rfind('\n').map_or(0, |at| at + 1);
         let line_end = text[start..].find('\n').map_or(text.len(), |at| start + at);
         let end = text.ceil_char_boundary(error.span.end.clamp(start, line_end));
+        let line = text[line_start..line_end].trim_end_matches('\r');
+        let column = text[line_start..start].chars().count();
+        let length = text[start..end].trim_end().chars().count().max(1);
+        // Of a long line the part about the place.
+        let left = column.saturating_sub(BEFORE);
+        let shown: String = line.chars().skip(left).take(MOST).collect();
         Some(Box::new(Self {
             line: error.line(),
-            text: text[line_start..line_end].trim_end_matches('\r').to_owned(),
-            column: text[line_start..start].chars().count(),
-            length: text[start..end].trim_end().chars().count().max(1),
+            column: column - left,
+            length: length.min(MOST - (column - left)),
+            text: shown,
         }))
     }
 }

@@ -10,6 +10,7 @@ use axum::{
 use percuss::{
     Scenario, case,
     model::{self, ChosenModel},
+    quote::shorten_words,
 };
 use serde::{Deserialize, de::DeserializeOwned};
 use tokio::time;
@@ -210,6 +211,8 @@ async fn whole(mut body: Body) -> Result<Vec<u8>, Unread> {
 /// Reads a request.
 pub(crate) async fn read<T: DeserializeOwned>(request: Request) -> Result<T, Problem> {
     let bytes = body(request).await?;
-    serde_json::from_slice(&bytes)
-        .map_err(|error| Problem::bad_request(format!("the request is not valid: {error}")))
+    serde_json::from_slice(&bytes).map_err(|error| {
+        let error = shorten_words(&error.to_string());
+        Problem::bad_request(format!("the request is not valid: {error}"))
+    })
 }

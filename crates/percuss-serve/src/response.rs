@@ -29,6 +29,8 @@ use crate::{
 
 /// Cells of the x–t diagram of a page along the axis and along time.
 const CELLS: [usize; 2] = [160, 120];
+/// Digits of the numbers on the page.
+const DIGITS: usize = 3;
 /// Name of the x–t diagram.
 const STRESS: &str = "stress-xt";
 /// Largest number of points of a curve that follows a slider.
@@ -136,7 +138,7 @@ pub(crate) fn compute(
     let balances = result.numerics.as_ref().map_or_else(Vec::new, |numerics| {
         result_rows::balance_rows(numerics, result.end_time.unwrap_or(0.0))
     });
-    let outcome = result_rows::outcome_rows(&scenario, &result, &results.results[0]);
+    let outcome = result_rows::outcome_rows(&scenario, &result, &results.results[0], DIGITS);
     let choice = chosen
         .note
         .iter()

@@ -10,6 +10,7 @@ pub mod experiments;
 pub mod limit;
 #[cfg(test)]
 mod made_up;
+pub mod measured_curves;
 pub mod model_error;
 pub mod summary;
 pub mod sweep;
@@ -21,8 +22,8 @@ pub mod validate;
 #[cfg(test)]
 use percuss_core::NumericalError;
 use percuss_core::{
-    Error, Refusal, Scenario, check, document, error, fragments, material, options, outcome,
-    problem, regime, richardson, scenario, solver, statistics, units, validity,
+    Error, Refusal, Scenario, check, document, error, fragments, history, material, options,
+    outcome, problem, regime, richardson, scenario, solver, statistics, units, validity,
 };
-use percuss_input::{case, inputs};
+use percuss_input::{case, csv_table, inputs};
 use percuss_models::{analytic, axi, chain, model};

@@ -24,19 +24,19 @@
 #[doc(inline)]
 pub use percuss_core::{
     Error, InputError, NumericalError, Refusal, Scenario, Subject, check, document, fragments,
-    history, input_file, ledger, material, options, outcome, power, problem, regime, resistance,
-    richardson, scenario, shapes, solver,
+    history, input_file, ledger, material, options, outcome, power, problem, quote, regime,
+    resistance, richardson, scenario, shapes, solver,
     solver::{checkpoint, frames},
     statistics, units, validity,
 };
 #[doc(inline)]
-pub use percuss_input::{case, inputs, lsdyna};
+pub use percuss_input::{case, inputs, lsdyna, material_tables};
 #[doc(inline)]
 pub use percuss_models::{analytic, axi, chain, fdm, model, particles};
 #[doc(inline)]
 pub use percuss_studies::{
-    axisymmetric, calibrate, compare, converge, experiments, limit, model_error, summary, sweep,
-    uncertainty, v50, validate,
+    axisymmetric, calibrate, compare, converge, experiments, limit, measured_curves, model_error,
+    summary, sweep, uncertainty, v50, validate,
 };
 
 /// The library example of the quick start, run from the folder that it stands in.

@@ -200,6 +200,18 @@ fn check(model: &dyn Model, scenario: &Scenario) -> Result<String, String> {
     }
 }
 
+/// So many cases of a seed.
+pub fn texts(cases: u64, seed: u64) -> Vec<String> {
+    let mut bytes = [0; 32];
+    bytes[..8].copy_from_slice(&seed.to_le_bytes());
+    let random = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
+    let mut runner = TestRunner::new_with_rng(Config::default(), random);
+    let strategy = any_case();
+    (0..cases)
+        .map(|_| strategy.new_tree(&mut runner).unwrap().current())
+        .collect()
+}
+
 fn from_environment(name: &str, default: u64) -> u64 {
     std::env::var(name).map_or(default, |text| text.parse().unwrap())
 }
@@ -208,14 +220,7 @@ fn from_environment(name: &str, default: u64) -> u64 {
 fn valid_cases_keep_the_invariants_in_every_model() {
     let cases = from_environment("PERCUSS_CASES", CASES);
     let seed = from_environment("PERCUSS_SEED", 1);
-    let mut bytes = [0; 32];
-    bytes[..8].copy_from_slice(&seed.to_le_bytes());
-    let random = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
-    let mut runner = TestRunner::new_with_rng(Config::default(), random);
-    let strategy = any_case();
-    let texts: Vec<String> = (0..cases)
-        .map(|_| strategy.new_tree(&mut runner).unwrap().current())
-        .collect();
+    let texts = texts(cases, seed);
     let ends: Mutex<BTreeMap<(&str, String), u64>> = Mutex::default();
     let failures: Mutex<Vec<String>> = Mutex::default();
     texts.par_iter().enumerate().for_each(|(i, text)| {

@@ -6,7 +6,7 @@ use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario, case,
     converge::{self, ConvergenceStatus, MeshStudy},
-    model::{self, Control, MODELS, Model},
+    model::{self, Control, Estimate, MODELS, Model},
     units::significant,
 };
 use percuss_report::{
@@ -15,6 +15,7 @@ use percuss_report::{
 };
 
 use crate::{
+    cost,
     failure::Failure,
     file_list::FileList,
     output,
@@ -83,7 +84,11 @@ struct ConvergenceOutput {
 impl Converge {
     pub fn run(&self) -> Result<(), Failure> {
         let mut progress = Progress::new(true);
-        let found = self.find(&VirtualFiles::default(), &mut progress.callback());
+        let found = self.find(
+            &VirtualFiles::default(),
+            &mut progress.callback(),
+            &|cost| cost::tell(cost, false),
+        );
         progress.finish();
         let ConvergenceOutput {
             scenario,
@@ -117,7 +122,7 @@ impl Converge {
         virtual_files: &VirtualFiles,
         on_progress: ProgressCallback<'_>,
     ) -> Result<Response, Failure> {
-        let found = self.find(virtual_files, on_progress)?;
+        let found = self.find(virtual_files, on_progress, &|_| ())?;
         Response::json_of(&found.study, found.files)
     }
 
@@ -125,10 +130,13 @@ impl Converge {
         &self,
         virtual_files: &VirtualFiles,
         on_progress: ProgressCallback<'_>,
+        tell: &dyn Fn(Estimate),
     ) -> Result<ConvergenceOutput, Failure> {
         let scenario = case::scenario(&virtual_files.read(&self.case)?)?;
         let model = model::model(&self.model)?;
         let mut folder = RunFolder::wanted(self.out.as_deref(), None)?;
+        let meshes = (0..self.levels).filter_map(|level| model.refined(&scenario, 1 << level));
+        tell(meshes.map(|mesh| cost::of_run(model, &mesh)).sum());
         let study = self.compute(model, &scenario, on_progress)?;
         if let Some(folder) = &mut folder {
             folder.put("convergence.json", output::json(&study)?.as_bytes())?;

@@ -4,6 +4,7 @@
 
 mod case_file;
 mod commands;
+mod gallery;
 mod results;
 
 use std::{env, fs, path::Path};
@@ -14,6 +15,7 @@ fn reference_pages_are_those_of_the_program() {
         ("docs/reference/case-file.md", case_file::page()),
         ("docs/reference/commands.md", commands::page()),
         ("docs/reference/results.md", results::page()),
+        ("docs/reference/gallery.md", gallery::page()),
     ] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("../..")

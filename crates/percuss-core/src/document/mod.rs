@@ -1,6 +1,7 @@
 //! A text with the name of its file, and where in it something is wrong.
 
 mod error_messages;
+mod long_texts;
 mod renamed;
 mod text_file;
 
@@ -97,7 +98,9 @@ impl Document {
     /// # Errors
     /// [`Error::Input`] with the place of what does not fit.
     pub fn parse<T: serde::de::DeserializeOwned>(&self) -> Result<T, Error> {
-        toml::from_str(&self.text).map_err(|error| self.parse_error(&error).into())
+        let value = toml::from_str(&self.text).map_err(|error| self.parse_error(&error))?;
+        self.report(long_texts::diagnostics(&self.text))?;
+        Ok(value)
     }
 
     /// Fails with the first diagnostic, if there is one.

@@ -78,6 +78,10 @@ pub struct Notch {
     pub from: [Length; 2],
     /// The other end, the tip, from which crack lengths and angles are measured.
     pub to: [Length; 2],
+    /// Width of a slot with a round end at the tip, whose faces cannot meet while it is open: no particle stands in it [m]. A cut of no
+    /// width, whose faces meet as those of a crack, when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width: Option<Length>,
 }
 
 impl Notch {
@@ -222,6 +226,13 @@ impl ParticlesOptions {
             for (key, end) in [("from", notch.from), ("to", notch.to)] {
                 for part in end {
                     check.quantity(key, part, NOTCH);
+                }
+            }
+            if let Some(width) = notch.width {
+                check.quantity("width", width, limits::LENGTH);
+                if self.outline() == Outline::Disc {
+                    let message = "a disc takes notches of no width alone";
+                    check.fail("width", message, "remove the key");
                 }
             }
             if notch.from == notch.to {

@@ -3,11 +3,13 @@
 mod experiment;
 mod extensions;
 mod gauge;
+mod measured_table;
 mod projectile;
 mod target;
 
 pub use experiment::{Experiment, SourceKeys, Uncertainty};
 pub use extensions::Extensions;
 pub use gauge::Gauge;
+pub use measured_table::MeasuredTable;
 pub use projectile::{Nose, Projectile};
 pub use target::{EdgeSupport, Layer, LayerInterface, RearFaceCondition, Target, Thickness};

@@ -101,7 +101,7 @@ pub(super) fn open<'a>(
     }
     if header.case != fingerprint(scenario) {
         return Err(refused(
-            "it is of another case: only its title, sources, experiments, and `end_time` and `max_steps` of a model may change",
+            "it is of another case: only its title, sources, experiments, measured curves, and `end_time` and `max_steps` of a model may change",
             "restore the case or start again without `--resume`",
         ));
     }
@@ -126,6 +126,7 @@ fn fingerprint(scenario: &Scenario) -> u64 {
         title: String::new(),
         sources: Vec::new(),
         experiments: Vec::new(),
+        measured_curves: Vec::new(),
         // A default that is written down changes no run.
         given: Given::default(),
         ..scenario.clone()

@@ -25,7 +25,15 @@ pub trait Checkpoints {
 
     /// Takes a checkpoint; [`ControlFlow::Break`] ends the run with [`Error::Cancelled`].
     fn keep(&mut self, bytes: &[u8]) -> ControlFlow<()>;
+
+    /// Whether the run is to stop while it is set up, when there is nothing to keep yet.
+    fn is_stopped(&self) -> bool {
+        false
+    }
 }
+
+/// Elements that are set up between two questions whether to go on: a few milliseconds.
+const SET_UP_INTERVAL: usize = 1 << 13;
 
 /// What gets the fields of a run.
 pub type OnFrame<'a> = &'a mut dyn FnMut(&Frame<'_>) -> ControlFlow<()>;
@@ -53,6 +61,49 @@ impl Control<'_> {
             record: true,
             ..Self::default()
         }
+    }
+
+    /// Asks the caller, while a run is set up, whether to go on.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] when the caller stops the run.
+    pub fn ask(&mut self) -> Result<(), Error> {
+        let is_stopped = self.checkpoints.as_ref().is_some_and(|c| c.is_stopped());
+        go_on(
+            match is_stopped {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            },
+            0,
+            0.0,
+        )?;
+        self.report(Progress {
+            step: 0,
+            time: 0.0,
+            fraction: 0.0,
+            depth: 0.0,
+        })
+    }
+
+    /// Does something with every item of a body that is set up, as long as the caller lets the run go on; `size` is how many elements an
+    /// item has.
+    ///
+    /// # Errors
+    /// As [`Control::ask`].
+    pub fn set_up<T>(
+        &mut self,
+        items: impl IntoIterator<Item = T>,
+        size: usize,
+        mut each: impl FnMut(T),
+    ) -> Result<(), Error> {
+        let interval = (SET_UP_INTERVAL / size.max(1)).max(1);
+        for (number, item) in items.into_iter().enumerate() {
+            if number.is_multiple_of(interval) {
+                self.ask()?;
+            }
+            each(item);
+        }
+        Ok(())
     }
 
     /// Reports progress to the caller.

@@ -22,6 +22,8 @@ use crate::{
 
 /// Largest part of the energy that changes of the time step may take: less than 1 % of the depth.
 const LARGEST_STEP_CHANGE: f64 = 5e-3;
+/// Elements times steps between two reports of progress at most: less than half a second.
+const REPORTED_WORK: u64 = 1_000_000;
 
 /// A run of a solver from impact to its end.
 #[derive(Debug)]
@@ -37,29 +39,45 @@ pub struct Drive<'a, S> {
     recorder: Option<Recorder>,
     gauges: Vec<Gauge>,
     frames: FrameClock,
+    /// Steps between two reports of progress.
+    report_interval: u64,
+    /// Whether the state is that of a checkpoint.
+    resumed: bool,
 }
 
 impl<'a, S: Solver<'a>> Drive<'a, S> {
-    /// The run at the moment of impact.
+    /// The run at the moment of impact, or at the checkpoint from which `control` resumes.
     ///
     /// # Errors
-    /// As [`Solver::build`].
-    pub fn new(scenario: &'a Scenario) -> Result<Self, Error> {
+    /// As [`Solver::build`]; [`Error::Checkpoint`].
+    pub fn new(scenario: &'a Scenario, control: &mut Control<'_>) -> Result<Self, Error> {
+        if let Some(bytes) = control.resume {
+            return Self::resume(scenario, bytes, control);
+        }
         let (given, default) = S::courant(scenario);
         let smallest = match S::AUDIT.retry {
             Retry::Never => f64::INFINITY,
             Retry::OfBalance { smallest } | Retry::OfAnyError { smallest } => smallest,
         };
-        Self::with_courant(scenario, CourantRetry::new(given, default, smallest))
+        let courant = CourantRetry::new(given, default, smallest);
+        Self::with_courant(scenario, courant, control)
     }
 
-    fn with_courant(scenario: &'a Scenario, courant: CourantRetry) -> Result<Self, Error> {
-        let solver = S::build(scenario, courant.number())?;
-        let elements = match solver.fields() {
-            Fields::Elements(elements) if !scenario.gauges.is_empty() => elements,
-            _ => Vec::new(),
+    fn with_courant(
+        scenario: &'a Scenario,
+        courant: CourantRetry,
+        control: &mut Control<'_>,
+    ) -> Result<Self, Error> {
+        let solver = S::build(scenario, courant.number(), control)?;
+        let elements = match scenario.gauges.is_empty() {
+            true => Vec::new(),
+            false => match solver.fields() {
+                Fields::Elements(elements) => elements,
+                Fields::Particles { .. } => Vec::new(),
+            },
         };
         let gauges = scenario.gauges.iter();
+        let most = REPORTED_WORK / (solver.size() as u64).max(1);
         Ok(Self {
             scenario,
             limits: solver.limits(),
@@ -71,45 +89,55 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
             courant,
             recorder: None,
             frames: FrameClock::new(scenario),
+            report_interval: S::AUDIT.report_interval.min(most.max(1)),
+            resumed: false,
         })
+    }
+
+    /// The run at a checkpoint of this case.
+    fn resume(
+        scenario: &'a Scenario,
+        bytes: &[u8],
+        control: &mut Control<'_>,
+    ) -> Result<Self, Error> {
+        let (_, content) = checkpoint::open(bytes, S::NAMES.0, scenario)?;
+        let mut archive = Archive::reader(content);
+        let (given, default) = S::courant(scenario);
+        let mut courant = CourantRetry::new(given, default, f64::INFINITY);
+        archive.item(&mut courant)?;
+        let mut run = Self::with_courant(scenario, courant, control)?;
+        run.archive(&mut archive)?;
+        run.resumed = true;
+        Ok(run)
     }
 
     /// Runs to the end from the state as it is.
     ///
     /// # Errors
-    /// [`Error::Numerical`] when the state cannot be continued or the balances do not close; [`Error::Checkpoint`];
-    /// [`Error::Cancelled`].
-    pub fn run(&mut self, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        let mut start = match control.resume {
-            Some(bytes) => {
-                self.restore(bytes)?;
-                false
-            }
-            None => true,
-        };
+    /// [`Error::Numerical`] when the state cannot be continued or the balances do not close; [`Error::Cancelled`].
+    pub fn run(self, control: &mut Control<'_>) -> Result<RunResult, Error> {
+        let mut run = self;
         loop {
-            let failed = match self.attempt(start, control) {
+            let failed = match run.attempt(control) {
                 Ok(mut result) => {
-                    result.warnings.extend(self.courant.warning());
+                    result.warnings.extend(run.courant.warning());
                     return Ok(result);
                 }
                 Err(failed) => failed,
             };
             match failed.retried(S::AUDIT.retry) {
-                Ok(error) => self.courant.halve(error)?,
+                Ok(error) => run.courant.halve(error)?,
                 Err(error) => return Err(error),
             }
-            *self = Self::with_courant(self.scenario, self.courant.clone())?;
-            start = true;
+            // The old state goes before the new one takes as much memory.
+            let (scenario, courant) = (run.scenario, run.courant.clone());
+            drop(run);
+            run = Self::with_courant(scenario, courant, control)?;
         }
     }
 
-    fn attempt(
-        &mut self,
-        start: bool,
-        control: &mut Control<'_>,
-    ) -> Result<RunResult, AttemptError> {
-        if start {
+    fn attempt(&mut self, control: &mut Control<'_>) -> Result<RunResult, AttemptError> {
+        if !self.resumed {
             self.recorder = control.record.then(|| Recorder::new(&self.scenario.gauges));
             self.record();
         }
@@ -150,7 +178,7 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
         if step.is_multiple_of(S::AUDIT.interval) {
             self.audit(self.solver.energy(), self.solver.momentum())?;
         }
-        let reports = step.is_multiple_of(S::AUDIT.report_interval);
+        let reports = step.is_multiple_of(self.report_interval);
         if reports {
             control.report(self.progress())?;
         }
@@ -323,15 +351,6 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
         let content = archive.into_bytes();
         let bytes = checkpoint::seal(S::NAMES.0, self.scenario, (step, time), &content)?;
         go_on(checkpoints.keep(&bytes), step, time)
-    }
-
-    /// Returns to the state of a checkpoint of this case.
-    fn restore(&mut self, bytes: &[u8]) -> Result<(), Error> {
-        let (_, content) = checkpoint::open(bytes, S::NAMES.0, self.scenario)?;
-        let mut archive = Archive::reader(content);
-        archive.item(&mut self.courant)?;
-        self.solver = S::build(self.scenario, self.courant.number())?;
-        self.archive(&mut archive)
     }
 
     fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {

@@ -1,6 +1,7 @@
 //! Interface of a numerical model to the time loop.
 
 use super::{
+    Control,
     archive::Archive,
     frames::Fields,
     gauge::Gauge,
@@ -22,11 +23,18 @@ pub trait Solver<'a>: Sized {
     /// How the balances of its runs are checked.
     const AUDIT: Audit;
 
-    /// The bodies at the moment of impact.
+    /// The bodies at the moment of impact. Where that may take more than a tenth of a second, `control` is asked whether to go on.
     ///
     /// # Errors
-    /// [`Error::NotApplicable`].
-    fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error>;
+    /// [`Error::NotApplicable`]; [`Error::Cancelled`].
+    fn build(
+        scenario: &'a Scenario,
+        courant: f64,
+        control: &mut Control<'_>,
+    ) -> Result<Self, Error>;
+
+    /// Elements, cells or particles that a step goes through.
+    fn size(&self) -> usize;
 
     /// Courant number that a case gives, and the default.
     fn courant(scenario: &Scenario) -> (Option<f64>, f64);

@@ -5,6 +5,7 @@ pub mod checkpoint;
 mod control;
 mod courant_retry;
 pub mod driver;
+pub mod estimate;
 pub mod frames;
 pub mod gauge;
 mod input_limit;
@@ -24,6 +25,7 @@ use crate::{
 pub(crate) use control::go_on;
 pub use control::{Checkpoints, Control, OnFrame, Progress};
 pub use courant_retry::AttemptError;
+pub use estimate::{Estimate, time_in_words};
 pub use input_limit::InputLimit;
 pub use particle::Particle;
 pub use particle::equivalent;
@@ -70,9 +72,9 @@ pub trait Model: Sync {
         None
     }
 
-    /// Memory that a run of a case takes, estimated without building it [bytes]; 0 for what is always little.
-    fn memory(&self, _: &Scenario) -> f64 {
-        0.0
+    /// Memory, steps and time that a run of a case takes, estimated without building it.
+    fn estimate(&self, _: &Scenario) -> Estimate {
+        Estimate::LITTLE
     }
 
     /// Ballistic limit that a model of residual velocity starts from, where the case has one; `None` for a model that needs none.
@@ -186,7 +188,7 @@ pub fn applicability_in(
         Applicability::Outside(refusal) => Err(refusal),
         Applicability::Inside(warnings) => match model.not_applicable(scenario) {
             Some(refusal) => Err(refusal),
-            None => match memory::refusal(model.memory(scenario)) {
+            None => match memory::refusal(model.estimate(scenario).memory) {
                 Some(refusal) => Err(refusal),
                 None => Ok(warnings),
             },

@@ -11,8 +11,10 @@
 //! assert_eq!(Velocity::new(230.0).to_string(), "230 m/s");
 //! ```
 
+mod column_name;
 mod dimension;
 mod result_unit;
+mod system;
 #[cfg(test)]
 mod tests;
 
@@ -21,8 +23,10 @@ use std::{borrow::Cow, fmt, marker::PhantomData, str::FromStr};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+pub use column_name::{ColumnName, ColumnUnit, column_symbols};
 pub use dimension::*;
 pub use result_unit::ResultUnit;
+pub use system::UnitSystem;
 
 use crate::error::nearest;
 

@@ -10,7 +10,7 @@ use crate::{
     inputs::UncertainInputs,
     material::MaterialTable,
     options::ModelOptions,
-    problem::{Experiment, Extensions, Gauge, Projectile, Target},
+    problem::{Experiment, Extensions, Gauge, MeasuredTable, Projectile, Target},
 };
 
 macro_rules! case_with_model_options {
@@ -47,6 +47,9 @@ macro_rules! case_with_model_options {
             /// What was measured in tests of this case, for comparison; no model sees it.
             #[serde(default, skip_serializing_if = "Vec::is_empty")]
             pub experiments: Vec<Experiment>,
+            /// Curves that were measured against time at the impact velocity of the case, for comparison; no model sees them.
+            #[serde(default, skip_serializing_if = "Vec::is_empty")]
+            pub measured_curves: Vec<MeasuredTable>,
             /// Which of its numbers are uncertain, for `percuss uncertainty`; no model sees it.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             pub uncertainty: Option<UncertainInputs>,
@@ -70,6 +73,7 @@ macro_rules! case_with_model_options {
                     gauges: Vec::new(),
                     extensions: Extensions::default(),
                     experiments: Vec::new(),
+                    measured_curves: Vec::new(),
                     uncertainty: None,
                     materials: MaterialTable::new(),
                     material_files: Vec::new(),

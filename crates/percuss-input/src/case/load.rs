@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use super::{Case, load_materials, resolve::resolve};
+use super::{Case, load_materials, measured_curves::measured_curves, resolve::resolve};
 use crate::{
     check::{Check, Diagnostic},
     document::Document,
     error::Error,
     material::Library,
-    problem::Gauge,
+    problem::{Gauge, MeasuredTable},
     scenario::Scenario,
 };
 
@@ -45,6 +45,14 @@ pub fn library(document: &Document) -> Result<Library, Error> {
 /// # Errors
 /// [`Error::Input`] when it is not valid, or a file that it names.
 pub fn scenario(document: &Document) -> Result<Scenario, Error> {
+    let case: Case = document.parse()?;
+    let mut scenario = scenario_of_models(document)?;
+    scenario.measured_curves = measured_curves(&case, document)?;
+    Ok(scenario)
+}
+
+/// The same without what no model sees: the curves of other files.
+pub(super) fn scenario_of_models(document: &Document) -> Result<Scenario, Error> {
     let case: Case = document.parse()?;
     let mut diagnostics = Vec::new();
     case.check(&mut Check::new(&mut diagnostics));
@@ -137,12 +145,18 @@ impl Case {
             let diagnostic = Diagnostic::at("material_files", message, help).of_material();
             return Err(document.place(diagnostic).into());
         }
-        self.into_scenario(name, Library::built_in())
+        let curves = measured_curves(&self, &document)?;
+        let scenario = self
+            .into_scenario(name, Library::built_in())
             .map_err(|diagnostics| {
                 let unknown = || Diagnostic::whole("the case could not be resolved", "");
                 let first = diagnostics.into_iter().next().unwrap_or_else(unknown);
-                document.place(first).into()
-            })
+                Error::from(document.place(first))
+            })?;
+        Ok(Scenario {
+            measured_curves: curves,
+            ..scenario
+        })
     }
 
     /// The scenario of a case that comes from no text, its own materials included; otherwise what is wrong with it.
@@ -168,6 +182,7 @@ impl Case {
         self.target.check(&mut check.within("target"));
         self.check_model_options(check);
         Gauge::check_all(&self.gauges, check);
+        MeasuredTable::check_all(&self.measured_curves, &self.gauges, check);
         for (i, experiment) in self.experiments.iter().enumerate() {
             let mut check = check.within(&format!("experiments.{i}"));
             experiment.check(&mut check, &self.target);

@@ -7,6 +7,7 @@ mod fdm_options_tests;
 mod file;
 mod load;
 mod material_file;
+mod measured_curves;
 mod resolve;
 mod schema;
 mod self_contained;
@@ -19,7 +20,7 @@ pub use load::{library, load, load_str, scenario};
 pub use material_file::{load_materials, materials_toml};
 pub use schema::schema;
 pub use self_contained::self_contained;
-pub use template::Template;
+pub use template::{ScenarioChange, Template};
 
 pub use crate::{
     check::limits::MAX_ELEMENTS,
@@ -31,7 +32,7 @@ pub use crate::{
         SmallStrainStiffness, TargetResistanceModel,
     },
     problem::{
-        EdgeSupport, Experiment, Extensions, Gauge, Layer, LayerInterface, Nose, Projectile,
-        RearFaceCondition, SourceKeys, Target, Thickness, Uncertainty,
+        EdgeSupport, Experiment, Extensions, Gauge, Layer, LayerInterface, MeasuredTable, Nose,
+        Projectile, RearFaceCondition, SourceKeys, Target, Thickness, Uncertainty,
     },
 };

@@ -42,6 +42,8 @@ pub(super) fn resolve(
         gauges: Vec::new(),
         extensions: case.extensions,
         experiments: case.experiments.iter().filter_map(measurement).collect(),
+        // They come from files, which the caller reads.
+        measured_curves: Vec::new(),
         given,
     };
     let chain = &mut scenario.options.chain;

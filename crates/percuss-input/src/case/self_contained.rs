@@ -2,23 +2,31 @@
 
 use std::path::{Path, PathBuf};
 
-use toml_edit::{DocumentMut, Item, Table};
+use toml_edit::{DocumentMut, Item, Table, TableLike, value};
 
-use super::{Document, material_file::TABLE};
-use crate::{check::Diagnostic, error::Error};
+use super::{Case, Document, material_file::TABLE};
+use crate::{check::Diagnostic, document::read_text, error::Error};
 
 /// Key of the files that a case takes materials from.
 const FILES: &str = "material_files";
 
-/// The text of the case with the records of its material files in it: it needs no other file. A case that names none keeps its text.
+/// Key of the tables of its measured curves.
+const CURVES: &str = "measured_curves";
+
+/// The text of the case with the records of its material files and its measured curves in it: it needs no other file. A case that names
+/// none keeps its text.
 ///
 /// # Errors
 /// [`Error::Read`] and [`Error::Input`] for a case or a file that cannot be read.
 pub fn self_contained(document: &Document) -> Result<String, Error> {
     let mut case = edited(document)?;
     let comment = comment_above(&case);
+    let has_curves = take_curves(&mut case, document)?;
     let Some(named) = case.remove(FILES) else {
-        return Ok(document.text.clone());
+        return Ok(match has_curves {
+            true => case.to_string(),
+            false => document.text.clone(),
+        });
     };
     let files: Vec<PathBuf> = named
         .as_array()
@@ -43,6 +51,32 @@ pub fn self_contained(document: &Document) -> Result<String, Error> {
     }
     *own = Item::Table(own_table);
     Ok(comment + &case.to_string())
+}
+
+/// Puts the texts of files of measured curves into the case; whether it names any.
+fn take_curves(case: &mut DocumentMut, document: &Document) -> Result<bool, Error> {
+    let tables = document.parse::<Case>()?.measured_curves;
+    let folder = document.folder.as_deref().unwrap_or(Path::new(""));
+    let mut items: Vec<&mut dyn TableLike> = match case.get_mut(CURVES) {
+        Some(Item::ArrayOfTables(written)) => written.iter_mut().map(|table| table as _).collect(),
+        Some(Item::Value(written)) => {
+            let written = written.as_array_mut().into_iter();
+            let written = written.flat_map(|items| items.iter_mut());
+            let written = written.filter_map(|item| item.as_inline_table_mut());
+            written.map(|table| table as _).collect()
+        }
+        _ => Vec::new(),
+    };
+    let mut any = false;
+    for (i, (table, item)) in tables.iter().zip(&mut items).enumerate() {
+        if let Some(file) = &table.file {
+            any = true;
+            item.remove("file");
+            item.insert("name", value(table.name(i)));
+            item.insert("csv", value(read_text(&folder.join(file))?));
+        }
+    }
+    Ok(any)
 }
 
 /// The comment above the key of the files, which often is that of the whole case.

@@ -1,6 +1,6 @@
 //! A case whose numbers can be changed before it becomes a scenario.
 
-use std::path::Path;
+use std::{fmt, path::Path, sync::Arc};
 
 use serde::Deserialize;
 use toml::{Table, Value};
@@ -14,12 +14,28 @@ use crate::{
     scenario::Scenario,
 };
 
+/// A change of every scenario of a study that no file can write, such as a strength law of the caller.
+#[derive(Clone)]
+pub struct ScenarioChange {
+    /// What tells it from other changes: results of one do not go on with another.
+    pub name: String,
+    /// The scenario with the change.
+    pub change: Arc<dyn Fn(Scenario) -> Scenario + Send + Sync>,
+}
+
+impl fmt::Debug for ScenarioChange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
 /// A case as a table of values, with the materials that it can name.
 #[derive(Debug, Clone)]
 pub struct Template {
     name: String,
     table: Table,
     library: Library,
+    change: Option<ScenarioChange>,
     /// What the case and the files that it names say, without comments and in one order of keys.
     pub content: String,
 }
@@ -27,10 +43,11 @@ pub struct Template {
 impl Template {
     /// Reads a case, which has to be valid as it stands.
     pub fn of(document: &Document) -> Result<Self, Error> {
-        super::scenario(document)?;
+        load::scenario_of_models(document)?;
         let mut table: Table = document.parse()?;
-        // No run depends on what is uncertain.
+        // No run depends on what is uncertain or was measured.
         table.remove("uncertainty");
+        table.remove("measured_curves");
         let mut case: Case = document.parse()?;
         // Its own materials are among the numbers that can be changed: only those of other files are looked up beforehand.
         case.materials.clear();
@@ -44,6 +61,7 @@ impl Template {
             name: document.name.clone(),
             table,
             library,
+            change: None,
             content,
         })
     }
@@ -62,7 +80,18 @@ impl Template {
             content: table.to_string(),
             table,
             library: library.clone(),
+            change: None,
         })
+    }
+
+    /// The same with a change of every scenario.
+    #[must_use]
+    pub fn with_change(self, change: ScenarioChange) -> Self {
+        Self {
+            content: format!("{}\n{}", self.content, change.name),
+            change: Some(change),
+            ..self
+        }
     }
 
     /// Name of the case.
@@ -86,7 +115,10 @@ impl Template {
         if let Some(key) = keys.find(|key| ChainOptions::is_of_a_column(key)) {
             scenario.choose_column(key);
         }
-        Ok(scenario)
+        Ok(match &self.change {
+            Some(own) => (own.change)(scenario),
+            None => scenario,
+        })
     }
 
     /// A material of the case with other values under some dotted keys; `None` if there is no such material.

@@ -2,7 +2,10 @@
 
 use std::ops::Range;
 
-use crate::error::{Error, InputError, Subject};
+use crate::{
+    error::{Error, InputError, Subject},
+    units::shorten,
+};
 
 /// Columns of a field, and in the long format.
 const WIDTH: usize = 10;
@@ -197,7 +200,7 @@ impl<'a> Keyword<'a> {
                 span,
             }),
             None => {
-                let message = format!("`{text}` is no number");
+                let message = format!("`{}` is no number", shorten(text));
                 Err(deck.error(&span, message, help))
             }
         }

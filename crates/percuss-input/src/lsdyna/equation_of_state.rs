@@ -1,9 +1,9 @@
 //! Card of the equation of state of Mie and Grüneisen.
 
 use super::{
+    UnitSystem,
     deck::{Deck, Field, Keyword},
     johnson_cook::rounded,
-    units::UnitSystem,
 };
 use crate::{error::Error, material::EquationOfState, units::Velocity};
 

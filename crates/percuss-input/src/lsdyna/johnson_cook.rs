@@ -1,8 +1,8 @@
 //! Cards of the Johnson–Cook laws, complete and simplified.
 
 use super::{
+    UnitSystem,
     deck::{Deck, Field, Keyword},
-    units::UnitSystem,
 };
 use crate::{
     error::Error,

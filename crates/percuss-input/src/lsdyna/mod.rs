@@ -24,7 +24,6 @@ mod johnson_cook;
 mod record;
 #[cfg(test)]
 mod tests;
-mod units;
 mod write;
 
 use std::path::Path;
@@ -35,7 +34,7 @@ use crate::{
     material::MaterialTable,
 };
 
-pub use units::UnitSystem;
+pub use crate::units::UnitSystem;
 pub use write::write;
 
 /// What was read from a deck.

@@ -1,11 +1,10 @@
 //! Records from the cards of a deck.
 
 use super::{
-    Imported,
+    Imported, UnitSystem,
     deck::{Deck, Field, Keyword},
     equation_of_state::{self, GruneisenCard},
     johnson_cook::{Card, Found},
-    units::UnitSystem,
 };
 use crate::{
     check::Check,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{johnson_cook::rounded, units::UnitSystem};
+use super::{UnitSystem, johnson_cook::rounded};
 use crate::{
     Refusal,
     material::{JohnsonCook, Material, RateForm, Strength},

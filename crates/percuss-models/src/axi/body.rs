@@ -8,10 +8,16 @@ use super::{
     localization::localize,
     mesh::Mesh,
 };
-use crate::{lanes::LANES, solver::Particle};
+use crate::{
+    Error,
+    lanes::LANES,
+    solver::{Control, Particle},
+};
 
 /// Least number of particles that one task takes. It does not depend on the number of threads, so sums come out the same on any.
 const CHUNK: usize = 512;
+/// Particles of a chunk before they are put in order: whole blocks.
+const SET_UP_CHUNK: usize = CHUNK.next_multiple_of(LANES);
 
 /// A body with a velocity field of its own.
 #[derive(Debug)]
@@ -117,20 +123,34 @@ impl Sums {
 
 impl Body {
     /// A body whose particles are yet to be put in order.
-    pub(super) fn new(law: Law, particles: &[Particle]) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(super) fn set_up(
+        law: Law,
+        particles: Vec<Particle>,
+        control: &mut Control<'_>,
+    ) -> Result<Self, Error> {
+        // Each chunk is one group until they are put in order.
+        let chunks = particles.chunks(SET_UP_CHUNK).map(|part| Chunk {
+            group_ends: vec![part.len()],
+            ..Chunk::default()
+        });
         let mut body = Self {
             law,
             blocks: Vec::new(),
-            chunks: vec![Chunk {
-                group_ends: vec![particles.len()],
-                ..Chunk::default()
-            }],
+            chunks: chunks.collect(),
             field: Field::default(),
             keys: Vec::new(),
             spare: Vec::new(),
         };
-        body.set_particles(particles);
-        body
+        body.fill(particles.into_iter(), control)?;
+        Ok(body)
+    }
+
+    /// Particles in it, with those that have left since they were put in order.
+    pub(super) fn len(&self) -> usize {
+        self.chunks.iter().map(Chunk::len).sum()
     }
 
     /// The particles in their order, with those that have left since it was made.
@@ -144,38 +164,59 @@ impl Body {
     }
 
     /// Replaces the particles by as many others in the same order.
-    pub(super) fn set_particles(&mut self, particles: &[Particle]) {
-        self.fill(particles.iter().copied());
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(super) fn set_particles(
+        &mut self,
+        particles: &[Particle],
+        control: &mut Control<'_>,
+    ) -> Result<(), Error> {
+        self.fill(particles.iter().copied(), control)
     }
 
-    fn fill(&mut self, mut particles: impl Iterator<Item = Particle>) {
+    fn fill(
+        &mut self,
+        mut particles: impl Iterator<Item = Particle>,
+        control: &mut Control<'_>,
+    ) -> Result<(), Error> {
         self.blocks.clear();
-        for chunk in &self.chunks {
-            let first = self.blocks.len();
-            let blocks = first + chunk.blocks();
-            self.blocks.resize(blocks, Block::default());
+        self.blocks
+            .reserve_exact(self.chunks.iter().map(Chunk::blocks).sum());
+        let (chunks, blocks) = (&self.chunks, &mut self.blocks);
+        control.set_up(chunks, CHUNK, |chunk| {
+            let first = blocks.len();
+            blocks.resize(first + chunk.blocks(), Block::default());
             let mut from = 0;
             for &end in &chunk.group_ends {
                 for (place, particle) in (from..end).zip(&mut particles) {
-                    let block = &mut self.blocks[first + place / LANES];
+                    let block = &mut blocks[first + place / LANES];
                     block.set_particle(place % LANES, &particle);
                     block.lone[place % LANES] = if end - from == 1 { 1.0 } else { 0.0 };
                 }
                 from = end;
             }
-        }
+        })
     }
 
     /// Puts particles in the order of their cells, row by row, drops those that have left, and groups those of each cell.
-    pub(super) fn put_in_order(&mut self, mesh: &Mesh) {
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(super) fn put_in_order(
+        &mut self,
+        mesh: &Mesh,
+        control: &mut Control<'_>,
+    ) -> Result<(), Error> {
         let mut keys = std::mem::take(&mut self.keys);
         keys.clear();
-        for (number, block) in self.blocks.iter().enumerate() {
+        control.set_up(self.blocks.iter().enumerate(), LANES, |(number, block)| {
             let [columns, rows] = mesh.places(&block.position).index;
             let present = (0..LANES).filter(|&l| block.mass[l] > 0.0);
             keys.extend(present.map(|l| (cell_key(rows[l], columns[l]), number * LANES + l)));
-        }
+        })?;
         keys.sort_unstable();
+        control.ask()?;
         // What the old chunks have in memory is used again.
         let mut old = std::mem::take(&mut self.chunks);
         let mut begin = || {
@@ -199,12 +240,14 @@ impl Body {
         if self.law.damage.is_some() {
             localize(&mut before, &keys);
         }
+        let places = keys.iter();
         self.fill(
-            keys.iter()
-                .map(|&(_, place)| before[place / LANES].particle(place % LANES)),
-        );
+            places.map(|&(_, place)| before[place / LANES].particle(place % LANES)),
+            control,
+        )?;
         self.spare = before;
         self.keys = keys;
+        Ok(())
     }
 
     /// Chunks with their particles.

@@ -6,7 +6,10 @@ use super::{
     law::Law,
     mesh::{Axis, Mesh},
 };
-use crate::solver::Particle;
+use crate::{
+    Error,
+    solver::{Control, Particle},
+};
 
 /// Rings or layers of particles between two positions: evenly spaced, and one to a cell where cells grow.
 pub(super) struct Division {
@@ -59,45 +62,62 @@ fn sides(axis: &Axis, (from, to): (f64, f64), per_cell: u32) -> Vec<f64> {
     Division::new(axis, (from, to), per_cell).sides(axis, from)
 }
 
-/// Fills a body of revolution with particles.
-///
-/// Particles stand in rings and in layers that fit the body, of equal width and height where cells are; a ring that the surface cuts has
-/// the part of its mass that lies inside.
-pub(super) fn fill(
-    law: &Law,
-    radius: f64,
-    (from, to): (f64, f64),
-    (mesh, per_cell): (&Mesh, u32),
-    velocity: f64,
-    temperature: f64,
-    inside: impl Fn(f64, f64) -> f64,
-) -> Vec<Particle> {
-    let rings = sides(&mesh.radial, (0.0, radius), per_cell);
-    let layers = sides(&mesh.axial, (from, to), per_cell);
-    let mut particles = Vec::with_capacity(rings.len() * layers.len());
-    for layer in layers.windows(2) {
-        let (depth, height) = (0.5 * (layer[0] + layer[1]), layer[1] - layer[0]);
-        for ring in rings.windows(2) {
+/// A body of revolution that is filled with particles.
+#[derive(Debug)]
+pub(super) struct Filling<'a> {
+    pub(super) law: &'a Law,
+    /// [m].
+    pub(super) radius: f64,
+    /// Depths of its two ends [m].
+    pub(super) span: (f64, f64),
+    /// Nodes, and particles along the side of a cell.
+    pub(super) mesh: (&'a Mesh, u32),
+    /// [m/s].
+    pub(super) velocity: f64,
+    /// [K].
+    pub(super) temperature: f64,
+}
+
+impl Filling<'_> {
+    /// The particles, in rings and in layers that fit the body, of equal width and height where cells are; a ring that the surface cuts
+    /// has the part of its mass that lies inside.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(super) fn fill(
+        &self,
+        inside: impl Fn(f64, f64) -> f64,
+        control: &mut Control<'_>,
+    ) -> Result<Vec<Particle>, Error> {
+        let (mesh, per_cell) = self.mesh;
+        let rings = sides(&mesh.radial, (0.0, self.radius), per_cell);
+        let layers = sides(&mesh.axial, self.span, per_cell);
+        let mut particles = Vec::with_capacity(rings.len() * layers.len());
+        let pairs = layers
+            .windows(2)
+            .flat_map(|layer| rings.windows(2).map(move |ring| (layer, ring)));
+        control.set_up(pairs, 1, |(layer, ring)| {
+            let (depth, height) = (0.5 * (layer[0] + layer[1]), layer[1] - layer[0]);
             let (at, width) = (0.5 * (ring[0] + ring[1]), ring[1] - ring[0]);
             let part = inside_part(at, depth, width, height, &inside);
             if part <= 0.0 {
-                continue;
+                return;
             }
             let volume = part * 2.0 * PI * at * width * height;
             let mut particle = Particle {
                 position: [at, depth],
-                velocity: [0.0, velocity],
-                mass: law.density * volume,
+                velocity: [0.0, self.velocity],
+                mass: self.law.density * volume,
                 volume,
-                temperature,
+                temperature: self.temperature,
                 sides: [width, height],
                 ..Particle::default()
             };
-            particle.yield_point = law.slow_yield_point(&particle);
+            particle.yield_point = self.law.slow_yield_point(&particle);
             particles.push(particle);
-        }
+        })?;
+        Ok(particles)
     }
-    particles
 }
 
 /// Part of a ring's section whose surface radius, at a depth, is beyond it.

@@ -2,7 +2,9 @@
 
 use std::iter;
 
-use super::{axial, crater, end::Window, floor::Floor, results, setup::build, solver::Grid};
+use super::{
+    axial, body::Body, crater, end::Window, floor::Floor, results, setup::build, solver::Grid,
+};
 use crate::{
     Error, Refusal, Scenario,
     error::NumericalError,
@@ -13,6 +15,7 @@ use crate::{
     outcome::{Outcome, RunResult, Termination},
     scenario::{Plate, TargetBody},
     solver::{
+        Control,
         archive::Archive,
         driver::Drive,
         frames::Fields,
@@ -108,8 +111,12 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
         },
     };
 
-    fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
-        let grid = build(scenario, courant);
+    fn build(
+        scenario: &'a Scenario,
+        courant: f64,
+        control: &mut Control<'_>,
+    ) -> Result<Self, Error> {
+        let grid = build(scenario, courant, control)?;
         let rows = match scenario.gauges.is_empty() {
             true => Vec::new(),
             false => axial::profile(&grid).elements,
@@ -130,6 +137,10 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
             floor_stopped: false,
             before: 0.0,
         })
+    }
+
+    fn size(&self) -> usize {
+        self.grid.bodies.iter().map(Body::len).sum()
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {

@@ -4,18 +4,19 @@ use super::{
     body::{Body, Limits},
     boundary::{BoundaryCondition, BoundaryConditions},
     contact::Contact,
-    fill::{Division, fill},
+    fill::{Division, Filling},
     law::{Law, Pressure},
     mesh::{Axis, Mesh},
+    run::materials,
     solver::{Accumulators, DeferredWork, Grid},
 };
 use crate::{
-    Scenario,
+    Error, Scenario,
     material::{Material, StateEquation},
     options::{ContactKind, Edge, Eos},
     problem::{Nose, RearFaceCondition},
-    scenario::{Plate, Rod, TargetBody},
-    solver::Particle,
+    scenario::{Rod, TargetBody},
+    solver::{Control, Particle, estimate::expected_depth},
 };
 
 /// Radii of the projectile that a target is modelled out to, and below the depth that the impact is expected to reach.
@@ -35,6 +36,15 @@ pub(super) struct Extent {
 /// Side of a cell [m].
 pub(super) fn cell(scenario: &Scenario) -> f64 {
     0.5 * scenario.projectile.diameter / f64::from(scenario.options.axi.cells_per_radius())
+}
+
+/// Largest speed of a longitudinal wave in the bodies before the impact [m/s].
+pub(super) fn wave_speed(scenario: &Scenario) -> f64 {
+    let speeds = materials(scenario).map(|(material, _)| {
+        let modulus = material.bulk_modulus() + 4.0 / 3.0 * material.shear_modulus();
+        (modulus / material.density.si()).sqrt()
+    });
+    speeds.fold(0.0, f64::max)
 }
 
 /// Part of the target that is modelled; `None` for a rigid wall.
@@ -102,20 +112,6 @@ fn mesh(scenario: &Scenario) -> Mesh {
     mesh
 }
 
-/// Depth for sizing only: the energy of the impact against three times the target's flow stress over the rod's area, and no more
-/// than a jet of no strength would reach.
-fn expected_depth(scenario: &Scenario, layers: &[Plate]) -> f64 {
-    let rod = &scenario.projectile;
-    let target = &layers[layers.len() - 1].material;
-    let density = rod.material.density.si();
-    let jet = 1.2 * rod.length * (density / target.density.si()).sqrt();
-    let kinetic = 0.5 * density * scenario.impact_velocity.powi(2) * rod.length;
-    match target.flow_stress(0.2) {
-        Some(stress) => jet.min(kinetic / (3.0 * stress)),
-        None => jet,
-    }
-}
-
 fn law(material: &Material, scenario: &Scenario) -> Law {
     let options = &scenario.options.axi;
     let rear_face = scenario.rear_face();
@@ -174,15 +170,27 @@ pub(super) fn particles(scenario: &Scenario) -> f64 {
     sum
 }
 
-fn projectile(rod: &Rod, law: &Law, mesh: (&Mesh, u32), speed: f64) -> Vec<Particle> {
+fn projectile(
+    rod: &Rod,
+    law: &Law,
+    mesh: (&Mesh, u32),
+    speed: f64,
+    control: &mut Control<'_>,
+) -> Result<Vec<Particle>, Error> {
     let radius = 0.5 * rod.diameter;
     let temperature = rod
         .temperature
         .unwrap_or(rod.material.room_temperature.si());
-    let span = (-rod.length, 0.0);
-    fill(law, radius, span, mesh, speed, temperature, |depth, _| {
-        nose_radius(rod.nose, rod.diameter, -depth)
-    })
+    let filling = Filling {
+        law,
+        radius,
+        span: (-rod.length, 0.0),
+        mesh,
+        velocity: speed,
+        temperature,
+    };
+    let surface = |depth: f64, _: f64| nose_radius(rod.nose, rod.diameter, -depth);
+    filling.fill(surface, control)
 }
 
 /// Radius of a projectile at a distance behind its tip [m].
@@ -208,14 +216,22 @@ fn nose_radius(nose: Nose, diameter: f64, behind: f64) -> f64 {
 }
 
 /// Builds the bodies of a case.
-pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
+///
+/// # Errors
+/// [`Error::Cancelled`].
+pub(super) fn build(
+    scenario: &Scenario,
+    courant: f64,
+    control: &mut Control<'_>,
+) -> Result<Grid, Error> {
     let options = &scenario.options.axi;
     let mesh = mesh(scenario);
     let filled = (&mesh, options.particles_per_side());
     let rod = &scenario.projectile;
     let rod_law = law(&rod.material, scenario);
-    let particles = projectile(rod, &rod_law, filled, scenario.impact_velocity);
-    let mut bodies = vec![Body::new(rod_law, &particles)];
+    let speed = scenario.impact_velocity;
+    let particles = projectile(rod, &rod_law, filled, speed, control)?;
+    let mut bodies = vec![Body::set_up(rod_law, particles, control)?];
     let mut supports = vec![BoundaryConditions {
         wall: scenario.target == TargetBody::RigidWall,
         ..BoundaryConditions::NONE
@@ -241,17 +257,16 @@ pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
             let law = law(&plate.material, scenario);
             let to = from + thickness;
             let temperature = plate.material.room_temperature.si();
-            let whole = |_: f64, _: f64| f64::INFINITY;
-            let particles = fill(
-                &law,
-                extent.radius,
-                (from, to),
-                filled,
-                0.0,
+            let filling = Filling {
+                law: &law,
+                radius: extent.radius,
+                span: (from, to),
+                mesh: filled,
+                velocity: 0.0,
                 temperature,
-                whole,
-            );
-            bodies.push(Body::new(law, &particles));
+            };
+            let particles = filling.fill(|_, _| f64::INFINITY, control)?;
+            bodies.push(Body::set_up(law, particles, control)?);
             let last = supports.len() == extent.layers.len();
             let held = if extent.cut {
                 RearFaceCondition::NonReflecting
@@ -294,8 +309,8 @@ pub(super) fn build(scenario: &Scenario, courant: f64) -> Grid {
         accumulated: Accumulators::default(),
         deferred: DeferredWork::default(),
     };
-    solver.start();
-    solver
+    solver.start(control)?;
+    Ok(solver)
 }
 
 /// Impedance per area of longitudinal and of shear waves [kg/(m2 s)].

@@ -14,11 +14,13 @@ use super::{
 };
 use crate::{
     Error,
-    solver::{Particle, archive::Archive},
+    solver::{Control, Particle, archive::Archive},
 };
 
 /// Part of a cell that particles may go until they are put in order again.
 const ORDER: f64 = 0.5;
+/// Chunks between two questions whether to go on, of a state that is set up.
+const PORTION: usize = 512;
 
 /// Bodies in motion. The first one is the projectile.
 #[derive(Debug)]
@@ -94,7 +96,7 @@ impl Grid {
             archive.item(&mut particles)?;
             archive.item(&mut body.chunks)?;
             if archive.is_read() {
-                body.set_particles(&particles);
+                body.set_particles(&particles, &mut Control::default())?;
             }
             archive.item(&mut body.field)?;
             archive.item(&mut supports.displacement)?;
@@ -103,16 +105,21 @@ impl Grid {
     }
 
     /// Makes the nodes ready from particles as they are.
-    pub(super) fn start(&mut self) {
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(super) fn start(&mut self, control: &mut Control<'_>) -> Result<(), Error> {
         for body in &mut self.bodies {
-            body.put_in_order(&self.mesh);
+            body.put_in_order(&self.mesh, control)?;
         }
         self.time_step = 0.0;
-        self.pass(false);
+        self.pass(false, control)?;
         let (energy, momentum) = self.motion();
         self.accumulated.initial_energy = energy;
         self.accumulated.initial_momentum = momentum;
+        control.ask()?;
         self.move_nodes();
+        Ok(())
     }
 
     /// Kinetic energy [J] and axial momentum [N s] of all particles.
@@ -136,7 +143,10 @@ impl Grid {
         let fastest = self.sums.iter().map(|sums| sums.speed_squared);
         self.travel += self.time_step * fastest.fold(0.0, f64::max).sqrt();
         let in_order = self.travel < ORDER * self.mesh.cell;
-        self.pass(!in_order);
+        // Between two steps nobody is asked.
+        if self.pass(!in_order, &mut Control::default()).is_err() {
+            return false;
+        }
         self.step += 1;
         self.time += self.time_step;
         let accumulated = &mut self.accumulated;
@@ -175,37 +185,43 @@ impl Grid {
     /// Moves all particles by the current step and adds them up on the nodes, in a new order if asked to.
     ///
     /// The nodes get the pressures of the groups that are to share a rate of volume in the next step.
-    fn pass(&mut self, reorder: bool) {
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    fn pass(&mut self, reorder: bool, control: &mut Control<'_>) -> Result<(), Error> {
         let mesh = self.mesh;
         let pass = Pass {
             time_step: self.time_step,
             mesh,
             limits: self.limits,
         };
+        self.sums = vec![Sums::default(); self.bodies.len()];
         let mut tasks = Vec::new();
         for (index, body) in self.bodies.iter_mut().enumerate() {
             tasks.extend(body.tasks().map(|task| (index, task)));
         }
         let at_once = chunks_at_once(tasks.len());
-        let sums: Vec<(usize, Sums)> = tasks
-            .into_par_iter()
-            .with_min_len(at_once)
-            .map(|(index, mut task)| {
-                let sums = advance(&mut task, &pass);
-                if !reorder {
-                    deposit(&mut task, &mesh);
-                }
-                (index, sums)
-            })
-            .collect();
-        self.sums = vec![Sums::default(); self.bodies.len()];
-        for (index, sum) in &sums {
-            self.sums[*index].add(sum);
+        for portion in tasks.chunks_mut(PORTION) {
+            control.ask()?;
+            let sums: Vec<(usize, Sums)> = portion
+                .par_iter_mut()
+                .with_min_len(at_once)
+                .map(|(index, task)| {
+                    let sums = advance(task, &pass);
+                    if !reorder {
+                        deposit(task, &mesh);
+                    }
+                    (*index, sums)
+                })
+                .collect();
+            for (index, sum) in &sums {
+                self.sums[*index].add(sum);
+            }
         }
         if reorder {
             self.travel = 0.0;
             for body in &mut self.bodies {
-                body.put_in_order(&mesh);
+                body.put_in_order(&mesh, control)?;
             }
             let tasks: Vec<Task<'_>> = self.bodies.iter_mut().flat_map(Body::tasks).collect();
             tasks
@@ -214,6 +230,7 @@ impl Grid {
                 .for_each(|mut task| deposit(&mut task, &mesh));
         }
         for body in &mut self.bodies {
+            control.ask()?;
             body.field.cover(&body.chunks);
             let Field {
                 first_row,
@@ -230,6 +247,7 @@ impl Grid {
                 .with_min_len(rows_at_once(rows, columns))
                 .for_each(|(index, row)| add_up(chunks, first_row + index as isize, row));
         }
+        Ok(())
     }
 
     /// Chooses the step that comes next and moves the nodes by it.

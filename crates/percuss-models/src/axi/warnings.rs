@@ -30,6 +30,20 @@ fn unlike(scenario: &Scenario, is_one: fn(&Material) -> bool) -> Vec<&str> {
     ids
 }
 
+/// Ids of the target's materials without data of failure; empty where an option of `axi` makes them fail.
+pub fn layers_that_cannot_fail(scenario: &Scenario) -> Vec<&str> {
+    if scenario.options.axi.can_fail(None) {
+        return Vec::new();
+    }
+    let mut ids: Vec<&str> = materials(scenario)
+        .skip(1)
+        .filter(|(material, _)| material.damage.is_none())
+        .map(|(_, id)| id)
+        .collect();
+    ids.dedup();
+    ids
+}
+
 pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String> {
     let mut warnings = Vec::new();
     let energy = run.grid.energy();
@@ -69,13 +83,8 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
     }
     let options = &run.scenario.options.axi;
     let free = run.scenario.rear_face() == Some(RearFaceCondition::Free);
-    let mut cannot_fail: Vec<&str> = materials(run.scenario)
-        .skip(1)
-        .filter(|(material, _)| material.damage.is_none())
-        .map(|(_, id)| id)
-        .collect();
-    cannot_fail.dedup();
-    if free && options.damage.is_none() && !options.can_fail(None) && !cannot_fail.is_empty() {
+    let cannot_fail = layers_that_cannot_fail(run.scenario);
+    if free && options.damage.is_none() && !cannot_fail.is_empty() {
         warnings.push(format!(
             "the target can be perforated by stretching and thinning alone, which takes more energy than failure: {} has no `damage` in its record. Give it, or `axi.failure_strain`",
             cannot_fail.join(", ")

@@ -4,11 +4,12 @@ use super::{end::Window, mesh, results::Results, solver::StepControl, state::Sta
 use crate::{
     Error, Scenario,
     error::NumericalError,
-    history::{Profile, Sample},
+    history::{PROFILE_ELEMENTS, Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
     options::{ChainOptions, ErosionCriterion, ErosionStrain},
     outcome::{Outcome, RunResult, Termination},
     solver::{
+        Control,
         archive::Archive,
         driver::Drive,
         frames::Fields,
@@ -24,8 +25,6 @@ const SMALLEST_COURANT: f64 = 0.05;
 pub(super) const AUDIT_INTERVAL: u64 = 128;
 /// Section of the first time step below which a run would never end.
 const COLLAPSED_STEP: f64 = 1e-4;
-/// Most elements in a profile: a finer mesh than a picture can show is thinned out.
-const PROFILE_ELEMENTS: usize = 400;
 
 /// Tolerances of the balances of the chain.
 pub(super) const TOLERANCE: BalanceTolerance = BalanceTolerance {
@@ -98,8 +97,12 @@ impl<'a> Solver<'a> for Column<'a> {
         },
     };
 
-    fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
+    fn build(scenario: &'a Scenario, courant: f64, _: &mut Control<'_>) -> Result<Self, Error> {
         Ok(Self::new(scenario, courant))
+    }
+
+    fn size(&self) -> usize {
+        self.state.elements.len()
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {

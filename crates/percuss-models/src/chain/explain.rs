@@ -51,7 +51,7 @@ fn beside(
         None => std::ops::ControlFlow::Continue(()),
     };
     quiet.progress = Some(&mut report);
-    match CavityRun::new(&other).and_then(|mut run| run.run(&mut quiet)) {
+    match CavityRun::new(&other, &mut quiet).and_then(|run| run.run(&mut quiet)) {
         Ok(found) => Ok(Some(found)),
         Err(error @ Error::Cancelled { .. }) => Err(error),
         Err(_) => Ok(None),

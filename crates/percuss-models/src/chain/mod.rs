@@ -77,9 +77,23 @@ use crate::{
     options::{BorderShearLaw, Scheme, TargetResistanceModel},
     outcome::RunResult,
     regime::{ProjectileRegime, TargetKind},
-    solver::{Control, CostClass, Model},
+    solver::{
+        Control, CostClass, Estimate, Model,
+        estimate::{ExpectedTimes, WorkRate, element_time},
+        limits::Limits,
+    },
     validity::{FirstChoice, NoseKind, Range, ValidityDomain},
 };
+
+/// Memory of an element with its node and their copy in fields [bytes], and elements times steps per second of processor time.
+const WORK: WorkRate = WorkRate {
+    bytes: 1000.0,
+    rate: 60e6,
+};
+/// Duration of a run in times of waves and of the expected stop: that of 80 % of random cases within a factor of four.
+const DURATION: [f64; 2] = [3.0, 0.25];
+/// First time step of a run over its mean: elements shorten, and steps with them.
+const SHORTENING: f64 = 3.0;
 
 /// The 1-D discrete element model.
 #[derive(Debug, Clone, Copy)]
@@ -137,6 +151,15 @@ impl Model for Chain {
         true
     }
 
+    fn estimate(&self, scenario: &Scenario) -> Estimate {
+        let options = &scenario.options.chain;
+        let (rod, target) = (options.projectile_elements(), options.target_elements());
+        let time_step = options.courant() * element_time(scenario, (rod, target)) / SHORTENING;
+        let end = ExpectedTimes::of(scenario).weighted(DURATION);
+        let limits = Limits::new(scenario, options.end_time, options.max_steps());
+        Estimate::of_time(WORK.of((rod + target) as f64), (end, time_step), limits)
+    }
+
     fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         match scenario.options.chain.scheme {
             Scheme::Conservative if is_expanding(scenario) => {
@@ -170,10 +193,10 @@ impl Model for Chain {
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
         let result = match scenario.options.chain.scheme {
             Scheme::Conservative if is_expanding(scenario) => {
-                expanding::CavityRun::new(scenario)?.run(control)?
+                expanding::CavityRun::new(scenario, control)?.run(control)?
             }
-            Scheme::Conservative => ColumnRun::new(scenario)?.run(control)?,
-            Scheme::Published => published::PublishedRun::new(scenario)?.run(control)?,
+            Scheme::Conservative => ColumnRun::new(scenario, control)?.run(control)?,
+            Scheme::Published => published::PublishedRun::new(scenario, control)?.run(control)?,
         };
         Ok(with_warning_of_thin_plate(scenario, result))
     }

@@ -118,11 +118,11 @@ fn the_share_of_border_shear_on_the_face_explains_the_coarse_meshes() {
         let mut scenario = scenario("copper", "aluminium-2024-t351", 230.0, "fixed");
         scenario.options.chain.projectile_elements = Some(elements.0);
         scenario.options.chain.target_elements = Some(elements.1);
-        let plain = ColumnRun::new(&scenario)
+        let plain = ColumnRun::new(&scenario, &mut Control::default())
             .unwrap()
             .run(&mut Control::default())
             .unwrap();
-        let mut run = ColumnRun::new(&scenario).unwrap();
+        let mut run = ColumnRun::new(&scenario, &mut Control::default()).unwrap();
         let face = elements.0 as usize + 1;
         run.solver.state.nodes[face].friction *= 2.0;
         let whole = run.run(&mut Control::default()).unwrap();

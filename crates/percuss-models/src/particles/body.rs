@@ -9,6 +9,7 @@ use super::{
     lattice::{DIRECTIONS, Lattice, ROW},
     packing::{Packing, facet_weight},
 };
+use crate::{Error, solver::Control};
 
 /// Displacements [m] and rotations of a row. A place before the first particle and places behind the last one stay at rest.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -121,48 +122,151 @@ pub(super) struct Rows {
     pub(super) particles: usize,
 }
 
+/// A straight slot with round ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Slot {
+    /// Ends of its middle line [m].
+    ends: [[f64; 2]; 2],
+    /// Half of its width [m].
+    half_width: f64,
+}
+
+impl Slot {
+    /// A slot of a width [m] from one place to its tip.
+    pub(super) fn new([from, tip]: [[f64; 2]; 2], width: f64) -> Self {
+        let half_width = 0.5 * width;
+        let way = [tip[0] - from[0], tip[1] - from[1]];
+        // The round end touches the tip.
+        let part = (half_width / way[0].hypot(way[1])).min(1.0);
+        let end = [tip[0] - part * way[0], tip[1] - part * way[1]];
+        Self {
+            ends: [from, end],
+            half_width,
+        }
+    }
+
+    fn holds(&self, place: [f64; 2]) -> bool {
+        let [from, end] = self.ends;
+        let (way, to) = (
+            [end[0] - from[0], end[1] - from[1]],
+            [place[0] - from[0], place[1] - from[1]],
+        );
+        let square = way[0] * way[0] + way[1] * way[1];
+        let part = match square > 0.0 {
+            true => ((way[0] * to[0] + way[1] * to[1]) / square).clamp(0.0, 1.0),
+            false => 0.0,
+        };
+        (to[0] - part * way[0]).hypot(to[1] - part * way[1]) < self.half_width
+    }
+}
+
 /// Places for so many particles in a row.
 fn stride(particles: usize) -> usize {
     2 + particles.next_multiple_of(crate::lanes::LANES)
 }
 
 impl Body {
+    #[cfg(test)]
     /// A strip of rows along the struck face, symmetric about `x = 0` but for its packing, with its first row at a depth [m].
-    pub(super) fn strip(lattice: Lattice, rows: Rows, depth: f64, packing: Packing) -> Self {
-        let columns = |row: usize| rows.particles - row % 2;
-        Self::of_particles(lattice, rows, depth, packing, |row, column| {
-            column < columns(row)
-        })
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(super) fn strip(
+        lattice: Lattice,
+        rows: Rows,
+        depth: f64,
+        packing: Packing,
+        control: &mut Control<'_>,
+    ) -> Result<Self, Error> {
+        Self::slotted_strip(lattice, rows, depth, packing, &[], control)
+    }
+
+    /// A strip of rows along the struck face, symmetric about `x = 0` but for its packing and slots, with its first row at a depth [m].
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(super) fn slotted_strip(
+        lattice: Lattice,
+        rows: Rows,
+        depth: f64,
+        packing: Packing,
+        slots: &[Slot],
+        control: &mut Control<'_>,
+    ) -> Result<Self, Error> {
+        let middle = 0.5 * (rows.particles as f64 - 1.0);
+        let is_there = |row: usize, column: usize| {
+            let across = (column as f64 + 0.5 * (row % 2) as f64 - middle) * lattice.spacing;
+            let along = depth + row as f64 * ROW * lattice.spacing;
+            let in_slot = slots.iter().any(|slot| slot.holds([across, along]));
+            column < rows.particles - row % 2 && !in_slot
+        };
+        Self::of_particles(lattice, rows, depth, packing, is_there, control)
     }
 
     /// A disc of the diameter of all rows, which touches the struck face.
-    pub(super) fn disc(lattice: Lattice, rows: Rows, packing: Packing) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(super) fn disc(
+        lattice: Lattice,
+        rows: Rows,
+        packing: Packing,
+        control: &mut Control<'_>,
+    ) -> Result<Self, Error> {
         let radius = 0.5 * (rows.count as f64 - 1.0) * ROW * lattice.spacing;
         let middle = 0.5 * (rows.particles as f64 - 1.0);
-        let mut disc = Self::of_particles(lattice, rows, 0.0, packing, |row, column| {
+        let is_there = |row: usize, column: usize| {
             let across = (column as f64 + 0.5 * (row % 2) as f64 - middle) * lattice.spacing;
             let along = row as f64 * ROW * lattice.spacing - radius;
             let is_inside = across * across + along * along <= radius * radius * (1.0 + 1e-9);
             is_inside && column < rows.particles - row % 2
-        });
+        };
+        let mut disc = Self::of_particles(lattice, rows, 0.0, packing, is_there, control)?;
         // A particle alone at the rim belongs to no triangle: the first row that is there touches.
         let top = disc
             .particles()
             .map(|(row, place)| disc.reference(row, place)[1]);
         disc.origin[1] = -top.fold(f64::INFINITY, f64::min).min(radius);
-        disc
+        Ok(disc)
     }
 
     /// A body of the triangles of which all three particles are there.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
     pub(super) fn of_particles(
         lattice: Lattice,
         rows: Rows,
         depth: f64,
         packing: Packing,
         is_there: impl Fn(usize, usize) -> bool,
-    ) -> Self {
+        control: &mut Control<'_>,
+    ) -> Result<Self, Error> {
         let stride = stride(rows.particles);
         let zeros = || vec![0.0; stride];
+        let (mut made, mut state, mut motion) = (Vec::new(), Vec::new(), Vec::new());
+        control.set_up(0..rows.count, stride, |_| {
+            made.push(RowMake {
+                mass: zeros(),
+                inverse_mass: zeros(),
+                inverse_inertia: zeros(),
+                weights: [zeros(), zeros(), zeros()],
+                ..RowMake::default()
+            });
+            state.push(RowState {
+                x: zeros(),
+                z: zeros(),
+                cosine: vec![1.0; stride],
+                sine: zeros(),
+                damage: Damage::default(),
+                lost: 0.0,
+            });
+            motion.push(RowMotion {
+                x: zeros(),
+                z: zeros(),
+                spin: zeros(),
+            });
+        })?;
         let mut body = Self {
             lattice,
             origin: [
@@ -170,62 +274,39 @@ impl Body {
                 depth,
             ],
             stride,
-            rows: (0..rows.count)
-                .map(|_| RowMake {
-                    mass: zeros(),
-                    inverse_mass: zeros(),
-                    inverse_inertia: zeros(),
-                    weights: [zeros(), zeros(), zeros()],
-                    ..RowMake::default()
-                })
-                .collect(),
-            state: vec![
-                RowState {
-                    x: zeros(),
-                    z: zeros(),
-                    cosine: vec![1.0; stride],
-                    sine: zeros(),
-                    damage: Damage::default(),
-                    lost: 0.0,
-                };
-                rows.count
-            ],
-            motion: vec![
-                RowMotion {
-                    x: zeros(),
-                    z: zeros(),
-                    spin: zeros(),
-                };
-                rows.count
-            ],
+            rows: made,
+            state,
+            motion,
             next: Vec::new(),
             held: None,
             area: 0.0,
             softening: None,
         };
-        body.next.clone_from(&body.state);
+        let mut next = Vec::with_capacity(rows.count);
+        control.set_up(&body.state, stride, |row| next.push(row.clone()))?;
+        body.next = next;
         let at = |row: usize, place: usize| {
             (1..=rows.particles).contains(&place) && is_there(row, place - 1)
         };
         if let Packing::Irregular(moved) = packing {
             let spacing = lattice.spacing;
-            for row in 0..rows.count {
+            control.set_up(0..rows.count, stride, |row| {
                 let of = |place: usize| match at(row, place) {
                     true => moved.shift(spacing, rows, (row, place - 1)),
                     false => [0.0; 2],
                 };
                 let shifts: Vec<[f64; 2]> = (0..stride).map(of).collect();
                 body.rows[row].shift = [0, 1].map(|axis| shifts.iter().map(|s| s[axis]).collect());
-            }
-            body.measure_bonds();
+            })?;
+            control.set_up(0..rows.count, stride, |row| body.measure_bonds(row))?;
         }
-        for row in 0..rows.count.saturating_sub(1) {
+        control.set_up(0..rows.count.saturating_sub(1), stride, |row| {
             for place in 1..stride - 1 {
                 body.add_triangles(row, place, &at);
             }
-        }
+        })?;
         body.finish();
-        body
+        Ok(body)
     }
 
     /// The two triangles on the side of the next row of the bond that starts at a place: both share a particle and its bond to the right.
@@ -276,21 +357,19 @@ impl Body {
         0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
     }
 
-    /// Directions and lengths of all bonds between moved particles.
-    fn measure_bonds(&mut self) {
-        for row in 0..self.rows.len() {
-            let rests = [0, 1, 2].map(|kind| {
-                let mut rests = Rests::default();
-                for place in 0..self.stride {
-                    let (direction, length) = self.measured(row, place, kind);
-                    rests.x.push(direction[0]);
-                    rests.z.push(direction[1]);
-                    rests.length.push(length);
-                }
-                rests
-            });
-            self.rows[row].rests = rests;
-        }
+    /// Directions and lengths of the bonds of a row between moved particles.
+    fn measure_bonds(&mut self, row: usize) {
+        let rests = [0, 1, 2].map(|kind| {
+            let mut rests = Rests::default();
+            for place in 0..self.stride {
+                let (direction, length) = self.measured(row, place, kind);
+                rests.x.push(direction[0]);
+                rests.z.push(direction[1]);
+                rests.length.push(length);
+            }
+            rests
+        });
+        self.rows[row].rests = rests;
     }
 
     fn measured(&self, row: usize, place: usize, kind: usize) -> ([f64; 2], f64) {
@@ -307,11 +386,17 @@ impl Body {
     }
 
     /// Lets bonds fail.
-    pub(super) fn soften(&mut self, softening: Softening) {
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(super) fn soften(
+        &mut self,
+        softening: Softening,
+        control: &mut Control<'_>,
+    ) -> Result<(), Error> {
         self.softening = Some(softening);
-        for state in self.state.iter_mut().chain(&mut self.next) {
-            state.damage = Damage::new(self.stride);
-        }
+        let (stride, rows) = (self.stride, self.state.iter_mut().chain(&mut self.next));
+        control.set_up(rows, stride, |state| state.damage = Damage::new(stride))
     }
 
     /// Holds the last row that has particles, as far as a distance from the axis [m].

@@ -35,6 +35,8 @@ pub(super) struct Front {
 pub(super) struct Notches {
     /// Ends of each: where it starts, and its tip [m].
     ends: Vec<[[f64; 2]; 2]>,
+    /// Whether each is a slot, which no bond crosses.
+    slots: Vec<bool>,
     /// Bonds that they cut, in order.
     cut: Vec<Bond>,
     /// Particles from which the cracks of each notch start.
@@ -42,27 +44,35 @@ pub(super) struct Notches {
 }
 
 impl Notches {
-    /// The notches of a body that they are cut into.
-    pub(super) fn of(body: &Body, ends: Vec<[[f64; 2]; 2]>) -> Self {
+    /// The notches of a body that they are cut into: ends of each, and whether it is a slot.
+    pub(super) fn of(body: &Body, notches: &[([[f64; 2]; 2], bool)]) -> Self {
         let cut: Vec<Bond> = body.bonds().filter(|&bond| body.is_broken(bond)).collect();
         let near = START * body.lattice.spacing;
-        let of_tip = |tip: [f64; 2]| {
-            let ends = cut.iter().flat_map(|&bond| body.ends(bond));
-            ends.filter(|&(row, place)| distance(body.reference(row, place), tip) < near)
-                .collect()
+        let is_near =
+            |&(row, place): &(usize, usize), tip| distance(body.reference(row, place), tip) < near;
+        let of_tip = |&([_, tip], is_slot): &([[f64; 2]; 2], bool)| match is_slot {
+            true => body.particles().filter(|at| is_near(at, tip)).collect(),
+            false => {
+                let ends = cut.iter().flat_map(|&bond| body.ends(bond));
+                ends.filter(|end| is_near(end, tip)).collect()
+            }
         };
         Self {
-            starts: ends.iter().map(|[_, tip]| of_tip(*tip)).collect(),
-            ends,
+            starts: notches.iter().map(of_tip).collect(),
+            ends: notches.iter().map(|(ends, _)| *ends).collect(),
+            slots: notches.iter().map(|(_, is_slot)| *is_slot).collect(),
             cut,
         }
     }
 
-    /// Numbers, from 1, of notches that cut no bond.
+    /// Numbers, from 1, of notches that cut no bond, and of slots whose tip is not in the body.
     pub(super) fn idle(&self, body: &Body) -> Vec<usize> {
-        let cuts = |ends: &[[f64; 2]; 2]| body.crossed(*ends).next().is_some();
-        let idle = self.ends.iter().enumerate().filter(|(_, ends)| !cuts(ends));
-        idle.map(|(index, _)| index + 1).collect()
+        let is_idle = |index: &usize| match self.slots[*index] {
+            true => self.starts[*index].is_empty(),
+            false => body.crossed(self.ends[*index]).next().is_none(),
+        };
+        let idle = (0..self.ends.len()).filter(is_idle);
+        idle.map(|index| index + 1).collect()
     }
 
     fn is_cut(&self, bond: Bond) -> bool {

@@ -26,11 +26,16 @@ use crate::{
     Error, Refusal, Scenario,
     outcome::{BandQuantity, RunResult},
     regime::{ProjectileRegime, TargetKind},
-    solver::{Control, CostClass, Model},
+    solver::{Control, CostClass, Estimate, Model, estimate::WorkRate},
     units::Length,
     validity::ValidityDomain,
 };
 
+/// Memory of a particle with the fields that show it [bytes], twice as much where particles are moved, and particles times steps per second of processor time.
+const WORK: WorkRate = WorkRate {
+    bytes: 350.0,
+    rate: 20e6,
+};
 /// Two-dimensional lattice of bonded particles.
 #[derive(Debug, Clone, Copy)]
 pub struct Particles;
@@ -96,8 +101,13 @@ impl Model for Particles {
         true
     }
 
-    fn memory(&self, scenario: &Scenario) -> f64 {
-        setup::memory(scenario)
+    fn estimate(&self, scenario: &Scenario) -> Estimate {
+        let (time_step, end, limits) = setup::expected(scenario);
+        let mut work = WORK.of(particles(scenario));
+        if has_seeds(scenario) {
+            work.bytes *= 2.0;
+        }
+        Estimate::of_time(work, (end, time_step), limits)
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
@@ -112,6 +122,6 @@ impl Model for Particles {
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        run::ParticlesRun::new(scenario)?.run(control)
+        run::ParticlesRun::new(scenario, control)?.run(control)
     }
 }

@@ -19,6 +19,7 @@ use crate::{
     options::ParticlesOptions,
     outcome::{Outcome, RunResult, Termination},
     solver::{
+        Control,
         archive::Archive,
         driver::Drive,
         frames::Fields,
@@ -127,8 +128,12 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         retry: Retry::OfBalance { smallest: 0.1 },
     };
 
-    fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
-        let (body, rigid) = setup::build(scenario);
+    fn build(
+        scenario: &'a Scenario,
+        courant: f64,
+        control: &mut Control<'_>,
+    ) -> Result<Self, Error> {
+        let (body, rigid) = setup::build(scenario, control)?;
         let speed = scenario.impact_velocity;
         let rod = &scenario.projectile;
         let mass = match rigid {
@@ -137,7 +142,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         };
         // A particle of the surface has half the mass of one inside, and a spring of the contact beside its bonds.
         let frequency = match body.rows[0].is_moved() {
-            true => body.measured_frequency(),
+            true => body.measured_frequency(control)?,
             false => body.lattice.largest_frequency(),
         };
         let of_contact =
@@ -161,8 +166,13 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
             initial: (0.5 * mass * speed * speed, mass * speed),
             body,
         };
+        control.ask()?;
         impact.find_contact();
         Ok(impact)
+    }
+
+    fn size(&self) -> usize {
+        self.body.rows.len() * self.body.stride
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
@@ -171,17 +181,8 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
     }
 
     fn limits(&self) -> Limits {
-        let options = &self.scenario.options.particles;
-        let limits = Limits::new(self.scenario, options.end_time, options.max_steps());
-        match (options.end_time, self.body.softening) {
-            (None, Some(_)) => Limits {
-                end_time: limits
-                    .end_time
-                    .min(setup::time_of_cracks(self.scenario, &self.body.lattice)),
-                ..limits
-            },
-            _ => limits,
-        }
+        let breaks = self.body.softening.is_some();
+        setup::limits(self.scenario, &self.body.lattice, breaks)
     }
 
     fn advance(&mut self) -> Result<(), NumericalError> {

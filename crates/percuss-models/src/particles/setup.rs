@@ -1,7 +1,7 @@
 //! Bodies of a case: which one is a lattice, its rows and its memory.
 
 use super::{
-    body::{Body, Rows},
+    body::{Body, Rows, Slot},
     cracks::Notches,
     debris::ContactLaw,
     fracture::{self, LEAST_SOFTENING, Softening, Toughness},
@@ -10,22 +10,23 @@ use super::{
     shape::{Rigid, Shape},
 };
 use crate::{
-    Refusal, Scenario,
+    Error, Refusal, Scenario,
     material::{Material, Strength},
     options::{Outline, PackingKind, ParticlesOptions},
     problem::RearFaceCondition,
     scenario::{Plate, TargetBody},
+    solver::{Control, limits::Limits},
 };
 
 /// Ways of a longitudinal wave across a body that breaks, after which its run ends where the case gives no time.
 const WAYS: f64 = 10.0;
+/// Ways along a strip on a wall, for the estimate of its run.
+const WAYS_ON_WALL: f64 = 8.0;
 /// Spacings across the thinner of diameter and thickness, unless the case gives a spacing.
 const SPACINGS: f64 = 10.0;
 /// Width of a target in diameters of the projectile and in thicknesses, unless the case gives it.
 const WIDTH_IN_DIAMETERS: f64 = 10.0;
 const WIDTH_IN_THICKNESSES: f64 = 4.0;
-/// Memory of a particle with the fields that show it [bytes].
-const PARTICLE: f64 = 350.0;
 /// Rows of triangles, and triangles along a row, of the smallest body.
 const LEAST: f64 = 2.0;
 
@@ -150,9 +151,27 @@ impl Extent {
     }
 }
 
-/// Memory of a run [bytes].
-pub(super) fn memory(scenario: &Scenario) -> f64 {
-    PARTICLE * extent(scenario).particles()
+/// Time step [s], expected duration [s] and limits of a run before it starts.
+pub(super) fn expected(scenario: &Scenario) -> (f64, f64, Limits) {
+    let options = &scenario.options.particles;
+    let lattice = solid(scenario).lattice(options.space(), extent(scenario).spacing());
+    let time_step = options.courant() * 2.0 / lattice.largest_frequency();
+    let end = match layer(scenario) {
+        Some(_) => time_of_cracks(scenario, &lattice),
+        None => WAYS_ON_WALL * extent(scenario).length / lattice.wave_speed,
+    };
+    let breaks = toughness(scenario).is_some();
+    (time_step, end, limits(scenario, &lattice, breaks))
+}
+
+/// Limits of a run, whose bonds break or not.
+pub(super) fn limits(scenario: &Scenario, lattice: &Lattice, breaks: bool) -> Limits {
+    let options = &scenario.options.particles;
+    let mut limits = Limits::new(scenario, options.end_time, options.max_steps());
+    if breaks && options.end_time.is_none() {
+        limits.end_time = limits.end_time.min(time_of_cracks(scenario, lattice));
+    }
+    limits
 }
 
 /// Resistance to cracks of the lattice's material, if its bonds break.
@@ -226,7 +245,7 @@ pub(super) fn is_disc(scenario: &Scenario) -> bool {
 }
 
 /// Time in which cracks have run through a body that breaks, and the projectile has gone its thickness at the speed of the impact [s].
-pub(super) fn time_of_cracks(scenario: &Scenario, lattice: &Lattice) -> f64 {
+fn time_of_cracks(scenario: &Scenario, lattice: &Lattice) -> f64 {
     let size = extent(scenario);
     let waves = WAYS * size.length.max(size.width) / lattice.wave_speed;
     waves + size.length / scenario.impact_velocity.max(1.0)
@@ -238,13 +257,31 @@ fn notch_ends(scenario: &Scenario) -> Vec<[[f64; 2]; 2]> {
     notches.map(|notch| notch.ends()).collect()
 }
 
+/// The notches of a case that are slots.
+fn slots(scenario: &Scenario) -> Vec<Slot> {
+    let notches = scenario.options.particles.notches.iter().flatten();
+    notches
+        .filter_map(|notch| Some(Slot::new(notch.ends(), notch.width?.si())))
+        .collect()
+}
+
 /// The notches of a body that is built.
 pub(super) fn notches(scenario: &Scenario, body: &Body) -> Notches {
-    Notches::of(body, notch_ends(scenario))
+    let notches = scenario.options.particles.notches.iter().flatten();
+    let notches: Vec<_> = notches
+        .map(|notch| (notch.ends(), notch.width.is_some()))
+        .collect();
+    Notches::of(body, &notches)
 }
 
 /// The lattice at the moment of impact, and the rigid body that it meets.
-pub(super) fn build(scenario: &Scenario) -> (Body, Rigid) {
+///
+/// # Errors
+/// [`Error::Cancelled`].
+pub(super) fn build(
+    scenario: &Scenario,
+    control: &mut Control<'_>,
+) -> Result<(Body, Rigid), Error> {
     let extent = extent(scenario);
     let packing = packing(scenario);
     let mut lattice = solid(scenario).lattice(scenario.options.particles.space(), extent.spacing());
@@ -256,26 +293,26 @@ pub(super) fn build(scenario: &Scenario) -> (Body, Rigid) {
         particles: extent.columns() as usize,
     };
     let mut body = match is_disc(scenario) {
-        true => Body::disc(lattice, rows, packing),
-        false => Body::strip(lattice, rows, extent.start, packing),
+        true => Body::disc(lattice, rows, packing, control)?,
+        false => {
+            let slots = slots(scenario);
+            Body::slotted_strip(lattice, rows, extent.start, packing, &slots, control)?
+        }
     };
     if let (Some(toughness), Some(softenings)) =
         (toughness(scenario), softenings(scenario, &lattice))
     {
         let irregular = packing != Packing::Hexagonal;
-        body.soften(Softening::new(
-            &lattice,
-            toughness.energy,
-            softenings.used,
-            irregular,
-        ));
+        let softening = Softening::new(&lattice, toughness.energy, softenings.used, irregular);
+        body.soften(softening, control)?;
     }
     for ends in notch_ends(scenario) {
+        control.ask()?;
         body.cut(ends);
     }
     if layer(scenario).is_none() {
         body.launch(scenario.impact_velocity);
-        return (body, Rigid::Wall);
+        return Ok((body, Rigid::Wall));
     }
     if scenario.rear_face() == Some(RearFaceCondition::Fixed) {
         // A disc stands on a support as wide as the projectile.
@@ -288,5 +325,5 @@ pub(super) fn build(scenario: &Scenario) -> (Body, Rigid) {
         nose: scenario.projectile.nose,
         radius: 0.5 * scenario.projectile.diameter,
     };
-    (body, Rigid::Projectile(shape))
+    Ok((body, Rigid::Projectile(shape)))
 }

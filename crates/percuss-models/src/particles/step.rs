@@ -9,7 +9,7 @@ use super::{
     bonds::{BondForce, Forces, Pair, Pose, Rest, RowForces, Springs, bond, offset},
     lattice::DIRECTIONS,
 };
-use crate::random::unit;
+use crate::{Error, random::unit, solver::Control};
 
 /// Rows that one task takes at least, and particles below which one task takes all.
 pub(super) const LEAST_ROWS: usize = 8;
@@ -222,8 +222,12 @@ impl Body {
 
     /// Largest angular frequency [rad/s], by power iteration on the accelerations of small displacements. The start is random, so that
     /// every motion is in it, and the result is raised by what thirty rounds may leave.
-    pub(super) fn measured_frequency(&self) -> f64 {
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(super) fn measured_frequency(&self, control: &mut Control<'_>) -> Result<f64, Error> {
         let mut body = self.clone();
+        control.ask()?;
         body.softening = None;
         let size = 1e-9 * self.lattice.spacing;
         for row in 0..body.rows.len() {
@@ -239,12 +243,13 @@ impl Body {
         }
         let mut square = 0.0;
         for _ in 0..FREQUENCY_ROUNDS {
+            control.ask()?;
             let before = body.motion_norm();
             body.displace_by_motion(size / before);
             body.advance(1.0, &[]);
             square = body.motion_norm() / size;
         }
-        FREQUENCY_MARGIN * square.sqrt()
+        Ok(FREQUENCY_MARGIN * square.sqrt())
     }
 
     /// Root of twice the kinetic energy over that of a velocity of 1 m/s.

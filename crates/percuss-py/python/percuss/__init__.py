@@ -21,10 +21,11 @@ from ._percuss import VERSION as __version__
 from .benchmarks import Benchmark, benchmark
 from .calibration import Calibration, calibrate
 from .case import Case, load
-from .commands import ResistanceLaw, StrengthLaw, compare, converge, limit, run, validate
+from .commands import ResistanceLaw, compare, converge, limit, run, validate
 from .errors import (
     CaseError,
     ClusterError,
+    LibraryError,
     MaterialError,
     NotApplicableError,
     NumericalError,
@@ -34,6 +35,7 @@ from .errors import (
     WriteError,
 )
 from .history import Gauge, History, Profile, SiColumns
+from .laws import StrengthLaw
 from .library import Material, Model, export_materials, flow_curves, import_materials, material, materials, model, models, new, schema
 from .progress import Progress
 from .record import Record, Records, Result
@@ -54,6 +56,7 @@ __all__ = [
     "Drawing",
     "Gauge",
     "History",
+    "LibraryError",
     "Limits",
     "Material",
     "MaterialError",

@@ -66,7 +66,10 @@ class Benchmark(Result):
         """Draws the errors of every model: median and 10th-90th percentile, or median absolute errors by a property of ``errors``."""
         return report_plots.errors(self, by, ax)
 
-    def _repr_html_(self) -> str:
+    def _headline(self) -> list[str]:
+        return self.findings[:1] or [f"reference: {self.reference}"]
+
+    def _details_html(self) -> str:
         def percent(part: float) -> str:
             return f"{round(100 * part):+d} %"
 

@@ -127,7 +127,11 @@ class Calibration(Result):
         """Draws the joint posterior of two parameters."""
         return study_plots.pair(self, x, y, ax)
 
-    def _repr_html_(self) -> str:
+    def _headline(self) -> list[str]:
+        fitted = [f"{p.key} = {shown(p.best)} {p.unit}".strip() for p in self.parameters]
+        return [*fitted, f"model {self.model}, RMS error {100 * self.training.rms:.2g} % of {self.training.count} values"]
+
+    def _details_html(self) -> str:
         rows = [[shown(value) for value in row.values()] for row in self._rows()]
         notes = [finding.words for finding in self.findings] + self.warnings
         rows += [["note", note] for note in notes]

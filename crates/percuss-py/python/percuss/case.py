@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from . import _percuss
+from . import _percuss, parts
 
 
 class Case:
@@ -23,8 +23,8 @@ class Case:
         Name of the case, which messages show instead of a file.
     **tables
         The tables and values of a case file: ``projectile``, ``target``, ``chain``, ``materials`` and so on. A quantity is a text
-        with its unit, such as ``"4.8 mm"``, or a number in SI units. ``None`` leaves a value out. Paths in ``material_files`` are
-        relative to the working directory.
+        with its unit, such as ``"4.8 mm"``, or a quantity of pint or astropy; a plain number is refused. ``None`` leaves a value out.
+        Paths in ``material_files`` and ``measured_curves`` are relative to the working directory.
 
     Raises
     ------
@@ -35,13 +35,19 @@ class Case:
     --------
     >>> import percuss
     >>> case = percuss.Case(
-    ...     projectile={"material": "copper", "length": "12.74 mm", "diameter": 4.8e-3, "impact_velocity": 230.0},
-    ...     target={"material": "aluminium-2024-t351", "thickness": 0.025},
+    ...     projectile={"material": "copper", "length": "12.74 mm", "diameter": "4.8 mm", "impact_velocity": "230 m/s"},
+    ...     target={"material": "aluminium-2024-t351", "thickness": "25 mm"},
     ... )
     >>> case.impact_velocity_m_s
     230.0
     >>> round(percuss.run(case).depth_of_penetration_mm, 4)
     0.2033
+
+    Tables are attributes, whose values can be read and set; a value is checked at once, with its unit.
+
+    >>> case.projectile.impact_velocity = "300 m/s"
+    >>> case.target.thickness, case.impact_velocity_m_s
+    ('25 mm', 300.0)
     """
 
     _native: _percuss.Case
@@ -84,14 +90,41 @@ class Case:
         >>> faster.impact_velocity_m_s
         400.0
         """
-        tables = tomllib.loads(self.text)
-        for key, value in values.items():
-            *way, last = key.split(".")
+        return self._of(self._changed({tuple(key.split(".")): value for key, value in values.items()}))
+
+    def _changed(self, values: Mapping[parts.Way, Any]) -> _percuss.Case:
+        """The native case with other values under the keys that lead to them."""
+        tables = self._tables()
+        for (*way, last), value in values.items():
             table: Any = tables
             for part in way:
                 table = table[int(part)] if isinstance(table, list) else table.setdefault(part, {})
-            table[int(last) if isinstance(table, list) else last] = value
-        return self._of(_percuss.Case.from_tables(self.name, tables, self._native.folder))
+            table[int(last) if isinstance(table, list) else last] = value.to_dict() if isinstance(value, parts.Part) else value
+        return _percuss.Case.from_tables(self.name, tables, self._native.folder)
+
+    def _tables(self) -> dict[str, Any]:
+        return tomllib.loads(self.text)
+
+    def _put(self, way: parts.Way, value: Any) -> None:
+        self._native = self._changed({way: value})
+
+    def __getattr__(self, name: str) -> Any:
+        # Names with an underscore belong to protocols of Python and are never keys.
+        if name.startswith("_") or name not in parts.keys(()):
+            raise AttributeError(f"a case has no `{name}`; its tables: {', '.join(parts.keys(()))}")
+        return parts.value(self._tables().get(name), self._tables, self._put, (name,))
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name.startswith("_"):
+            super().__setattr__(name, value)
+        else:
+            self._put((name,), value)
+
+    def __delattr__(self, name: str) -> None:
+        self._put((name,), None)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *parts.keys(())]
 
     @property
     def name(self) -> str:
@@ -117,6 +150,27 @@ class Case:
     def path(self) -> Path | None:
         """The file; ``None`` for a case that comes from none."""
         return None if self._native.path is None else Path(self._native.path)
+
+    def estimate(self, model: str | None = None) -> dict[str, float]:
+        """Estimated cost of a run, before anything is computed.
+
+        Parameters
+        ----------
+        model : str, optional
+            Name of the model, by default that of :func:`percuss.run`.
+
+        Returns
+        -------
+        dict
+            ``memory_bytes``, ``steps`` and ``seconds`` of processor time; 0 for a formula.
+
+        Raises
+        ------
+        NotApplicableError
+            Also for a run that would take more memory than the limit.
+        """
+        memory, steps, seconds = self._native.estimate(model)
+        return {"memory_bytes": memory, "steps": steps, "seconds": seconds}
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes a case file, which the program reads."""

@@ -7,15 +7,16 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
-from . import _percuss
+from . import _percuss, quantities
 from .case import Case
+from .laws import StrengthLaw
 from .progress import Progress, watching
 
 #: A path of a file or folder.
 Path: TypeAlias = str | os.PathLike[str]
 #: A case, or the path of a case file.
 CaseLike: TypeAlias = Case | Path
-#: Velocity in m/s, or a text with its unit.
+#: Velocity in m/s, a text with its unit, or a quantity of pint or astropy.
 Speed: TypeAlias = float | str
 
 
@@ -25,11 +26,13 @@ def execute(
     of: CaseLike | Sequence[CaseLike] | None = None,
     texts: Mapping[str, str] | None = None,
     progress: Progress | bool | None = None,
+    laws: tuple[StrengthLaw | None, StrengthLaw | None, str] = (None, None, ""),
     **options: Any,
 ) -> _percuss.Response:
     """Executes a command. Options have the names of the command line; ``None`` selects the default.
 
-    ``of`` are cases that follow ``names`` on the command line; ``texts`` replace files that options name.
+    ``of`` are cases that follow ``names`` on the command line; ``texts`` replace files that options name; ``laws`` are strength laws of
+    projectile and target with what tells them from others, for ``uncertainty``.
     """
     cases: dict[str, _percuss.Case] = {}
 
@@ -51,7 +54,7 @@ def execute(
                 line.append(f"{flag}={word(item)}")
     line += ["--", *map(word, [*names, *several(of)])]
     with watching(progress) as on_progress:
-        return _percuss.execute(line, cases, dict(texts or {}), on_progress)
+        return _percuss.execute(line, cases, dict(texts or {}), on_progress, *laws)
 
 
 def answer(command: str, *names: Path, **options: Any) -> Any:
@@ -70,11 +73,24 @@ def speeds(speeds: Speed | Sequence[float] | None) -> str | None:
     """Velocities as text of the command line, with all digits."""
     if speeds is None or isinstance(speeds, str):
         return speeds
+    quantity = quantities.text(speeds)
+    if quantity is not None:
+        return _speed_texts(quantity)
     if isinstance(speeds, (int, float)):
         return repr(float(speeds))
     return ",".join(repr(float(speed)) for speed in speeds)
 
 
+def _speed_texts(quantity: str | float | list[Any]) -> str:
+    """Velocities of pint or astropy, in m/s, as text of the command line."""
+    if isinstance(quantity, list):
+        return ",".join(str(item).removesuffix(" m/s") for item in quantity)
+    return str(quantity)
+
+
 def with_unit(speed: Speed | None) -> str | None:
     """Velocity as text of the command line."""
+    quantity = None if speed is None or isinstance(speed, str) else quantities.text(speed)
+    if quantity is not None:
+        return str(quantity)
     return speed if speed is None or isinstance(speed, str) else f"{float(speed)!r} m/s"

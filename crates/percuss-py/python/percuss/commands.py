@@ -9,11 +9,10 @@ from . import _percuss
 from .command_line import CaseLike, Path, Speed, execute, several, speeds, with_unit
 from .case import Case, native
 from .errors import UsageError
+from .laws import StrengthLaw
 from .progress import Progress, watching
 from .results import Comparison, Convergence, Limits, RunResult, Validation
 
-#: Flow stress [Pa] from plastic strain, strain rate [1/s] and temperature [K].
-StrengthLaw: TypeAlias = Callable[[float, float, float], float]
 #: Pressure on the crater floor [Pa] from its depth [m] and the speed at which it advances [m/s].
 ResistanceLaw: TypeAlias = Callable[[float, float], float]
 
@@ -32,6 +31,7 @@ def run(
     checkpoint: float | str | None = None,
     resume: bool = False,
     seeds: int | None = None,
+    units: str | None = None,
     progress: Progress | bool | None = None,
     projectile_law: StrengthLaw | None = None,
     target_law: StrengthLaw | None = None,
@@ -74,6 +74,9 @@ def run(
     seeds : int, optional
         Packings of model ``particles`` to run, 2 to 1000: the seed of the case and the next ones. ``result.seeds`` then has mean, standard
         deviation and range of every result number.
+    units : str, optional
+        Unit system of the tables in ``out``: ``"SI"``, ``"mm-ms-kN"``, ``"cm-g-us"``, ``"in-lb-s"`` or another one of decks. Names of columns
+        say so; attributes of the result keep the units of their names.
     progress : callable or bool, optional
         Called with the progress, 0 to 1, and a short text; ``True`` and ``False`` show a bar or none. When not given, a bar of tqdm
         is shown after a second, in a notebook or terminal with tqdm.
@@ -114,7 +117,7 @@ def run(
         raise UsageError(f"`reference` has no effect with model `{model}`: leave one of both out, or give model `chain`")
     if reference is not None and any(law is not None for law in laws):
         raise UsageError("`reference` needs laws of the library: leave it out, or add the law to the library")
-    written: dict[str, Any] = {"field": field, "fields": fields, "animation": animation, "frames": frames, "resume": resume, "seeds": seeds}
+    written: dict[str, Any] = {"field": field, "fields": fields, "animation": animation, "frames": frames, "resume": resume, "seeds": seeds, "units": units}
     if out is not None or checkpoint is not None or any(value not in (None, False) for value in written.values()):
         if any(law is not None for law in laws):
             raise UsageError("files can be written only for runs with laws of the library: leave out `out`, or add the law to the library")
@@ -141,6 +144,7 @@ def compare(
     reference: str | None = None,
     fast: bool = False,
     out: Path | None = None,
+    units: str | None = None,
     progress: Progress | bool | None = None,
 ) -> Comparison:
     """Runs every model on a case and compares their results.
@@ -160,6 +164,8 @@ def compare(
         Whether to leave ``axi`` out.
     out : path, optional
         Folder for a copy of the case, the numbers and the figure, as ``percuss compare --out`` writes them; made if it does not exist.
+    units : str, optional
+        Unit system of the tables in ``out``, as in :func:`run`.
     progress : callable or bool, optional
         As in :func:`run`.
 
@@ -170,7 +176,7 @@ def compare(
     ['chain']
     """
     found = execute(
-        "compare", of=case, velocity=speeds(velocity), model=several(model), reference=reference, fast=fast, out=out, progress=progress
+        "compare", of=case, velocity=speeds(velocity), model=several(model), reference=reference, fast=fast, out=out, units=units, progress=progress
     )
     return Comparison(found)
 
@@ -183,6 +189,7 @@ def limit(
     points: int | None = None,
     model: str | Sequence[str] | None = None,
     reference: str | None = None,
+    fast: bool = False,
     shots: Path | None = None,
     span: Speed | None = None,
     out: Path | None = None,
@@ -203,7 +210,10 @@ def limit(
     model : str or sequence of str, optional
         Models to search with; all except those that may take minutes when not given.
     reference : str, optional
-        ``"standard"`` or ``"fine"``: meshes on which ``axi`` is searched with too; ``axisymmetric`` then has the limit of fine meshes.
+        ``"standard"`` or ``"fine"``: meshes of the limit by ``axi``, whatever they cost; ``"standard"``, within 60 s of processor time,
+        when neither this nor ``model`` is given. ``axisymmetric`` has the limit of fine meshes.
+    fast : bool
+        Leave the axisymmetric limit out.
     shots : path, optional
         CSV file of tests with the columns ``impact_velocity_m_s`` and ``perforated``.
     span : float or str, optional
@@ -229,6 +239,7 @@ def limit(
         points=points,
         model=several(model),
         reference=reference,
+        fast=fast,
         shots=shots,
         span=with_unit(span),
         out=out,

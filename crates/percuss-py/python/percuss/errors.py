@@ -78,6 +78,10 @@ class UsageError(PercussError, ValueError):
     """An argument asks for something that does not exist, or leaves nothing to compute."""
 
 
+class LibraryError(PercussError, ImportError):
+    """A library that a table or figure needs is not installed; the message says how to install it."""
+
+
 class _FileError(PercussError, OSError):
     message: str = ""
     help: str = ""

@@ -5,11 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from . import _percuss, fields
+from .optional import library
+from .unit_systems import dataset, in_units
 from .values import ElementColumns, SampleColumns
 
 if TYPE_CHECKING:
     import pandas
     import pyarrow
+    import xarray
     from numpy.typing import NDArray
 
     Array = NDArray[Any]
@@ -45,18 +48,25 @@ class _Columns:
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.names()]
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """All columns as a table of pandas, which is a copy."""
-        import pandas
+    def _table(self, units: str | None) -> dict[str, Array]:
+        return in_units({name: self[name] for name in self.names()}, units)
 
-        return pandas.DataFrame({name: self[name] for name in self.names()})
+    def to_pandas(self, units: str | None = None) -> pandas.DataFrame:
+        """All columns as a table of pandas, which is a copy; ``units`` is a unit system, such as ``"SI"`` or ``"mm-ms-kN"``."""
+        made: pandas.DataFrame = library("pandas").DataFrame(self._table(units))
+        return made
 
-    def to_arrow(self) -> pyarrow.Table:
+    def to_arrow(self, units: str | None = None) -> pyarrow.Table:
         """All columns as a table of Arrow, which is a copy."""
         import numpy
-        import pyarrow
 
-        return pyarrow.table({name: numpy.ascontiguousarray(self[name]) for name in self.names()})
+        columns = self._table(units).items()
+        return library("pyarrow").table({name: numpy.ascontiguousarray(column) for name, column in columns})
+
+    def to_xarray(self, units: str | None = None) -> xarray.Dataset:
+        """All columns as variables of xarray with their ``units``, along ``sample``; the time is a coordinate, where there is one."""
+        names = self.names()
+        return dataset({name: self[name] for name in names}, "sample", units, "time_us" if "time_us" in names else None)
 
 
 class _Rows(_Columns):

@@ -168,7 +168,8 @@ def export_materials(
     names : str
         Ids, families or aliases.
     format : str, optional
-        ``"toml"``, records as in a case file, or ``"ls-dyna"``, cards of a deck; TOML when not given.
+        ``"toml"``, records as in a case file, ``"json"``, ``"csv"``, a row for each material, or ``"ls-dyna"``, cards of a deck; TOML when not
+        given.
     units : str, optional
         Unit system of a deck: length, mass and time, such as ``"mm-kg-ms"``.
     case, file : optional
@@ -192,15 +193,16 @@ def export_materials(
     return str(found["text"])
 
 
-def import_materials(deck: Path, *, units: str, out: Path | None = None) -> Record:
-    """Reads materials from a deck of LS-DYNA.
+def import_materials(deck: Path, *, units: str | None = None, out: Path | None = None) -> Record:
+    """Reads materials from a deck of LS-DYNA, JSON or a table.
 
     Parameters
     ----------
     deck : path
-        Deck with ``*MAT_JOHNSON_COOK``, ``*MAT_SIMPLIFIED_JOHNSON_COOK`` and ``*EOS_GRUNEISEN``.
-    units : str
-        Unit system of the deck: length, mass and time, such as ``"mm-kg-ms"``.
+        Deck with ``*MAT_JOHNSON_COOK``, ``*MAT_SIMPLIFIED_JOHNSON_COOK`` and ``*EOS_GRUNEISEN``, or a file that ends with ``.json`` or
+        ``.csv``, as :func:`export_materials` writes it.
+    units : str, optional
+        Unit system of a deck: length, mass and time, such as ``"mm-kg-ms"``.
     out : path, optional
         File for the records as TOML, which ``material_files`` of a case can name.
 

@@ -7,6 +7,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from . import _percuss
+from .optional import library
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,9 +39,9 @@ def new_axes(ax: Axes | None, size: tuple[float, float] | None = None) -> Axes:
     """Given axes, or new axes of a size [in]."""
     if ax is not None:
         return ax
-    import matplotlib.pyplot
-
-    return matplotlib.pyplot.subplots(layout="constrained", figsize=size)[1]
+    figure = library("matplotlib.pyplot").subplots(layout="constrained", figsize=size)
+    axes: Axes = figure[1]
+    return axes
 
 
 def plain_logarithmic(ax: Axes) -> None:
@@ -132,6 +133,9 @@ def limits(limits: Limits, ax: Axes | None) -> Axes:
         points += [(p.impact_velocity_m_s, p.residual_velocity_m_s) for p in model.curve or []]
         label = f"{model.model}, {'input limit ' if given else ''}{limit:.4g} m/s"
         ax.plot(*zip(*points, strict=True), label=label, linestyle="--" if given else "-", marker=None if given else ".")
+    if limits.axisymmetric is not None and limits.axisymmetric.ballistic_limit_m_s is not None:
+        value, half = limits.axisymmetric.ballistic_limit_m_s, limits.axisymmetric.uncertainty_m_s
+        ax.axvspan(value - half, value + half, color="0.85", label=f"axisymmetric, {value:.4g} ± {half:.2g} m/s")
     for experiment in limits.experiments:
         if experiment.quantity == "ballistic_limit_m_s":
             ax.axvline(experiment.value, color="k", linestyle="--", label=f"measured, {experiment.value:.4g} m/s")

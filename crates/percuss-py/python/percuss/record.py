@@ -9,10 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from . import _percuss
+from .optional import library
+from .unit_systems import dataset, in_units
 
 if TYPE_CHECKING:
     import pandas
     import pyarrow
+    import xarray
 
 
 class Record:
@@ -112,13 +115,34 @@ class Result(CommandRecord):
     def _rows(self) -> list[dict[str, Any]]:
         raise NotImplementedError
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """Table of pandas; nested tables become columns with joined names such as ``band.low``."""
-        return frame(self._rows())
+    def _headline(self) -> list[str]:
+        """What matters, in words."""
+        raise NotImplementedError
 
-    def to_arrow(self) -> pyarrow.Table:
+    def _details_html(self) -> str:
+        """Tables below the headline."""
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({'; '.join(self._headline())})"
+
+    def _repr_html_(self) -> str:
+        return table_html([""], [], "; ".join(self._headline())) + self._details_html()
+
+    def to_pandas(self, units: str | None = None) -> pandas.DataFrame:
+        """Table of pandas; nested tables become columns with joined names such as ``band.low``.
+
+        ``units`` is a unit system, such as ``"SI"`` or ``"mm-ms-kN"``: columns of numbers are in its units, and their names say so.
+        """
+        return frame(self._rows(), units)
+
+    def to_arrow(self, units: str | None = None) -> pyarrow.Table:
         """Table of Arrow with the same columns."""
-        return table(self._rows())
+        return table(self._rows(), units)
+
+    def to_xarray(self, units: str | None = None) -> xarray.Dataset:
+        """The columns of numbers and texts as variables of xarray along ``row``, with their ``units``."""
+        return dataset(columns(self._rows()), "row", units)
 
 
 R = TypeVar("R", bound=Record)
@@ -151,18 +175,15 @@ def written(response: _percuss.Response) -> tuple[Path, ...]:
     return tuple(Path(file) for file in response.files())
 
 
-def frame(rows: list[dict[str, Any]]) -> pandas.DataFrame:
+def frame(rows: list[dict[str, Any]], units: str | None = None) -> pandas.DataFrame:
     """Table of pandas, one row per record."""
-    import pandas
+    made: pandas.DataFrame = library("pandas").DataFrame(in_units(columns(rows), units))
+    return made
 
-    return pandas.DataFrame(columns(rows))
 
-
-def table(rows: list[dict[str, Any]]) -> pyarrow.Table:
+def table(rows: list[dict[str, Any]], units: str | None = None) -> pyarrow.Table:
     """Table of Arrow, one row per record."""
-    import pyarrow
-
-    return pyarrow.table(columns(rows))
+    return library("pyarrow").table(in_units(columns(rows), units))
 
 
 def _wrapped(value: Any) -> Any:
@@ -180,6 +201,20 @@ def shown(value: Any) -> str:
     if isinstance(value, list):
         return ", ".join(shown(item) for item in value)
     return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def in_words(name: str, value: float) -> str:
+    """A value with the words of its name and its unit, to three digits.
+
+    Examples
+    --------
+    >>> in_words("depth_of_penetration_mm", 0.20331)
+    'depth of penetration 0.203 mm'
+    """
+    for end, unit in _percuss.units():
+        if name.endswith(end):
+            return f"{name.removesuffix(end).replace('_', ' ')} {value:.3g} {unit}"
+    return f"{name.replace('_', ' ')} {value:.3g}"
 
 
 def columns(rows: list[dict[str, Any]]) -> dict[str, list[Any]]:

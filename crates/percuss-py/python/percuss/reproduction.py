@@ -51,7 +51,14 @@ class Reproduction(Result):
         draw = {"paper": report_plots.assessments, "damping": report_plots.damping, "codes": report_plots.codes}
         return draw[self.work](self, ax)
 
-    def _repr_html_(self) -> str:
+    def _headline(self) -> list[str]:
+        if self.work != "paper":
+            return self.findings[:1] or [self.work]
+        assessed = [item.assessment.replace("_", " ") for item in self.items]
+        counted = (f"{assessed.count(word)} {word}" for word in dict.fromkeys(assessed))
+        return [f"the seed paper, {len(assessed)} statements: {', '.join(counted)}"]
+
+    def _details_html(self) -> str:
         titles = {"damping": "damping in the case of the seed paper", "codes": "comparison with other codes"}
         if self.work in titles:
             return table_html([""], [[words] for words in self.findings], titles[self.work])

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _percuss, fields, plots
 from .history import History
-from .record import Record, Result, shown, table_html, written
+from .record import Record, Result, in_words, shown, table_html, written
 from .values import ResultValues
 
 if TYPE_CHECKING:
@@ -86,7 +86,8 @@ class RunResult(ResultValues, Result):
         """Draws the axial stress [MPa] versus position [mm] and time [us]."""
         return plots.stress(self, ax)
 
-    def _headline(self) -> list[list[str]]:
+    def _answer(self) -> list[list[str]]:
+        """Label and words of the axisymmetric answer, if there is one."""
         answer = self.axisymmetric
         if answer is None:
             return []
@@ -95,12 +96,16 @@ class RunResult(ResultValues, Result):
         off = "" if answer.uncertainty is None else f" ± {answer.uncertainty:.2g}"
         return [[f"axisymmetric {answer.quantity}", f"{shown(answer.value)}{off} ({len(answer.meshes)} meshes)"]]
 
-    def __repr__(self) -> str:
-        words = "".join(f"{label}={value}, " for label, value in self._headline())
-        return super().__repr__().replace("(", f"({words}", 1)
+    def _headline(self) -> list[str]:
+        words = [self.outcome.replace("_", " ")]
+        words += [f"{label} {value}" for label, value in self._answer()]
+        main = ("depth_of_penetration_mm", "residual_velocity_m_s", "ballistic_limit_m_s", "projectile_final_length_mm")
+        words += [in_words(name, self._data[name]) for name in main if self._data[name] is not None][:2]
+        warned = len(self.warnings)
+        return [*words, f"case {self.case}, model {self.model}", *([f"{warned} warning{'s' * (warned > 1)}"] if warned else [])]
 
-    def _repr_html_(self) -> str:
-        rows = self._headline() + [[name, value] for name, value in self._shown()]
+    def _details_html(self) -> str:
+        rows = self._answer() + [[name, value] for name, value in self._shown()]
         if self.expected_error is not None:
             error = self.expected_error
             ends = f"10th-90th percentile {100 * error.low:+.0f} % to {100 * error.high:+.0f} %, from {error.cases} similar benchmark cases"
@@ -143,7 +148,23 @@ class Comparison(Result):
         """Draws the main quantity: by model at one velocity, versus velocity at many."""
         return plots.comparison(self, ax)
 
-    def _repr_html_(self) -> str:
+    def _headline(self) -> list[str]:
+        words = []
+        for at in self.recommended:
+            speed = f" at {at.impact_velocity_m_s:g} m/s" if len(self.recommended) > 1 else ""
+            for choice in at.models[:1]:
+                words.append(f"recommended{speed}: {choice.model}{self._value(choice.model, at.impact_velocity_m_s)}")
+        return [*(words[:3] or ["no model is recommended"]), f"case {self.case}, {len(self.results)} results"]
+
+    def _value(self, model: str, speed: float) -> str:
+        """Main quantity of a model in words, where it gives one."""
+        given = (r for r in self.results if r.model == model and r.impact_velocity_m_s == speed)
+        record = next(given, None)
+        name = self.quantities[0] if self.quantities else None
+        value = None if record is None or name is None else record._data.get(name)
+        return "" if name is None or value is None else f", {in_words(name, value)}"
+
+    def _details_html(self) -> str:
         quantities = self.quantities
         chosen = {choice.model for at in self.recommended for choice in at.models}
         # Results come before missing results.
@@ -170,7 +191,7 @@ class Limits(Result):
     range : Record or None
         ``lowest_m_s`` and ``highest_m_s`` of the ``models`` that predict a limit.
     axisymmetric : Record or None
-        ``ballistic_limit_m_s`` by ``axi`` in the limit of fine meshes, its ``uncertainty_m_s`` and the ``meshes``, where asked for.
+        ``ballistic_limit_m_s`` by ``axi`` in the limit of fine meshes, its ``uncertainty_m_s`` and the ``meshes``.
     experiments : list of Record
         Measured values.
     results : list of Record
@@ -191,6 +212,7 @@ class Limits(Result):
     recommended: list[Record]
     note: str | None
     range: Record | None
+    axisymmetric: Record | None
     experiments: list[Record]
     results: list[Record]
     v50: Record | None
@@ -207,7 +229,21 @@ class Limits(Result):
         """Draws the tests, the maximum-likelihood probability of perforation, and V50 with its interval."""
         return plots.v50(self, ax)
 
-    def _repr_html_(self) -> str:
+    def _headline(self) -> list[str]:
+        words = []
+        if "results" in self:
+            chosen = [choice.model for choice in self.recommended]
+            given = [r for r in self.results if r.ballistic_limit_m_s is not None and r.outcome != "input"]
+            best = [r for r in given if r.model in chosen] or given
+            words += [f"{in_words('ballistic_limit_m_s', r.ballistic_limit_m_s)} by {r.model}" for r in best[:2]] or ["no model predicts a limit"]
+            words.append(f"case {self.case}")
+        if self.v50 is not None:
+            known = [e for e in self.v50.estimates if e.v50_m_s is not None]
+            words += [f"V50 {shown(e.v50_m_s)} m/s by {e.method.replace('_', ' ')}" for e in known[:1]]
+            words.append(f"{self.v50.tests} tests")
+        return words
+
+    def _details_html(self) -> str:
         text = ""
         if "results" in self:
             chosen = {choice.model for choice in self.recommended}
@@ -251,7 +287,12 @@ class Convergence(Result):
             rows.append(mesh | values)
         return rows
 
-    def _repr_html_(self) -> str:
+    def _headline(self) -> list[str]:
+        (first, *_) = self.quantities
+        kind = shown(first.status._data.get("kind")).replace("_", " ")
+        return [f"{first.name.replace('_', ' ')} {shown(first.values[-1])} {first.unit} on the finest mesh", kind, f"{len(self.meshes)} meshes"]
+
+    def _details_html(self) -> str:
         rows = self._rows()
         text = table_html(list(rows[0]), [[shown(value) for value in row.values()] for row in rows])
         names = ["kind", "order", "richardson", "index"]
@@ -287,7 +328,15 @@ class Validation(Result):
         """Draws predicted versus measured values of the counted predictions."""
         return plots.validation(self, ax)
 
-    def _repr_html_(self) -> str:
+    def _headline(self) -> list[str]:
+        whole = [group for group in self.statistics if group.grouping == "all"]
+        best = min(whole, key=lambda group: group.median_absolute, default=None)
+        words = [f"{self.tests} tests, {len(self.models)} models"]
+        if best is not None:
+            words.append(f"least median error {100 * best.median_absolute:.0f} % by {best.model} on {best.kind.replace('_', ' ')}")
+        return words
+
+    def _details_html(self) -> str:
         errors = ["bias", "rms", "median_absolute", "worst"]
         rows = [
             [group.model, group.kind.replace("_", " "), str(group.count), *(f"{100 * group[error]:.1f}" for error in errors)]

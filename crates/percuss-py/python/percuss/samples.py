@@ -38,14 +38,14 @@ class Sample(_Columns):
     def _column(self, name: str) -> _percuss.Column | None:
         return self._native.column(name)
 
-    def to_pandas(self) -> pandas.DataFrame:
-        table = super().to_pandas()
+    def to_pandas(self, units: str | None = None) -> pandas.DataFrame:
+        table = super().to_pandas(units)
         if self.outcome:
             table["outcome"] = self.outcome
         return table
 
-    def to_arrow(self) -> pyarrow.Table:
-        table = super().to_arrow()
+    def to_arrow(self, units: str | None = None) -> pyarrow.Table:
+        table = super().to_arrow(units)
         return table.append_column("outcome", [self.outcome]) if self.outcome else table
 
     def __len__(self) -> int:

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from . import _percuss, study_plots
+from . import _percuss, laws, study_plots
 from .command_line import CaseLike, Path, Speed, execute, several, speeds
+from .errors import UsageError
+from .laws import StrengthLaw
 from .progress import Progress
-from .record import Record, Result, shown, table_html
+from .record import Record, Result, in_words, shown, table_html
 from .samples import Sample
 
 if TYPE_CHECKING:
@@ -114,7 +116,16 @@ class Uncertainty(Result):
         """Draws the probability of perforation [%] versus impact velocity [m/s]; the study needs a ``velocity``."""
         return study_plots.perforation(self, ax)
 
-    def _repr_html_(self) -> str:
+    def _headline(self) -> list[str]:
+        words = []
+        for row in self._rows()[:2]:
+            low, middle, high = (in_words(row["quantity"], row[name]) for name in ("p05", "p50", "p95"))
+            words.append(f"{middle} (5 to 95 %: {low.split()[-2]} to {' '.join(high.split()[-2:])})")
+        if self.perforation is not None:
+            words.append(f"probability of perforation {100 * self.perforation.probability:.3g} %")
+        return [*words, f"case {self.case}, model {self.model}, {self.samples} samples"]
+
+    def _details_html(self) -> str:
         rows = [[name, *(shown(row[name]) for row in self._rows())] for name in (self._rows() or [{}])[0] if name != "quantity"]
         if self.perforation is not None:
             rows.append(["probability of perforation [%]", shown(100 * self.perforation.probability)])
@@ -137,6 +148,8 @@ def uncertainty(
     threads: int | None = None,
     out: Path | None = None,
     progress: Progress | bool | None = None,
+    projectile_law: StrengthLaw | None = None,
+    target_law: StrengthLaw | None = None,
 ) -> Uncertainty:
     """Says what the uncertainty of a case's numbers does to its results.
 
@@ -165,6 +178,9 @@ def uncertainty(
         Folder for a copy of the case, the numbers and the figures, as ``percuss uncertainty --out`` writes them; made if it does not exist.
     progress : callable or bool, optional
         As in :func:`percuss.run`.
+    projectile_law, target_law : callable, optional
+        Strength laws in Python, as in :func:`percuss.run`, for every shot. An exception in a law ends the study. Not with ``out`` and
+        ``axisymmetric``.
 
     Returns
     -------
@@ -188,6 +204,9 @@ def uncertainty(
     >>> len(spread.draws)
     16
     """
+    own = laws.name(projectile_law, target_law)
+    if own and (out is not None or axisymmetric is not None):
+        raise UsageError("`out` and `axisymmetric` need laws of the library: leave them out, or add the law to the library")
     found = execute(
         "uncertainty",
         of=case,
@@ -201,5 +220,6 @@ def uncertainty(
         threads=threads,
         out=out,
         progress=progress,
+        laws=(projectile_law, target_law, own),
     )
     return Uncertainty(found)

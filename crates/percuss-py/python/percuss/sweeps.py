@@ -7,16 +7,20 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
-from . import _percuss, cluster, plots
+from . import _percuss, cluster, laws, plots
 from .command_line import Path, answer, execute, several
 from .case import Case
 from .errors import UsageError
+from .laws import StrengthLaw
 from .progress import Progress, watching
+from .optional import library
 from .record import CommandRecord, Record, table_html
+from .unit_systems import dataset, in_units
 
 if TYPE_CHECKING:
     import pandas
     import pyarrow
+    import xarray
     from distributed import Client
     from matplotlib.axes import Axes
 
@@ -53,19 +57,28 @@ class SweepResult:
 
     def to_arrow(self) -> pyarrow.Table:
         """All computed rows as a table of Arrow, in the order of the runs."""
-        import pyarrow
-        import pyarrow.parquet
+        arrow = library("pyarrow")
+        parquet = library("pyarrow.parquet")
+        return arrow.concat_tables(parquet.read_table(file) for file in self.files())
 
-        return pyarrow.concat_tables(pyarrow.parquet.read_table(file) for file in self.files())
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """All computed rows as a table of pandas, in the order of the runs."""
+    def to_pandas(self, units: str | None = None) -> pandas.DataFrame:
+        """All computed rows as a table of pandas, in the order of the runs; ``units`` is a unit system, such as ``"mm-ms-kN"``."""
+        library("pandas")
         rows: pandas.DataFrame = self.to_arrow().to_pandas()
+        names = list(rows.columns)
+        for name, (new, column) in zip(names, in_units({name: rows[name] for name in names}, units).items()):
+            rows[name] = column
+            rows = rows.rename(columns={name: new})
         return rows
 
-    def merge(self, out: Path) -> int:
+    def to_xarray(self, units: str | None = None) -> xarray.Dataset:
+        """All computed rows as variables of xarray with their ``units``, along ``shot``."""
+        rows = self.to_arrow()
+        return dataset({name: rows[name].to_pylist() for name in rows.column_names}, "shot", units, "shot")
+
+    def merge(self, out: Path, units: str | None = None) -> int:
         """Writes all rows into one Parquet file, as :func:`percuss.merge` does; returns their number."""
-        return merge(self, out)
+        return merge(self, out, units=units)
 
     def plot(self, x: str, y: str, colour: str | None = None, ax: Axes | None = None) -> Axes:
         """Draws a column versus another one, one dot per shot, coloured by a third; :func:`percuss.plot` chooses what suits the sweep."""
@@ -96,6 +109,8 @@ def sweep(
     threads: int | None = None,
     client: Client | None = None,
     progress: Progress | bool | None = None,
+    projectile_law: StrengthLaw | None = None,
+    target_law: StrengthLaw | None = None,
 ) -> SweepResult:
     """Computes a case many times with some of its numbers varied.
 
@@ -119,6 +134,9 @@ def sweep(
         A Dask cluster to compute on.
     progress : callable or bool, optional
         As in :func:`percuss.run`.
+    projectile_law, target_law : callable, optional
+        Strength laws in Python, as in :func:`percuss.run`, for every shot; threads take turns in them. A folder goes on with the same law
+        only. An exception in a law ends the sweep. Not on a cluster.
 
     Returns
     -------
@@ -150,8 +168,11 @@ def sweep(
     part, parts = shard
     if not 1 <= part <= parts:
         raise UsageError(f"shard {part}/{parts} does not exist: parts are counted from 1 to their number")
+    own = laws.name(projectile_law, target_law)
+    if own and client is not None:
+        raise UsageError("strength laws in Python are computed on this machine: leave out `client`, or add the law to the library")
     path = _written(sweep, FilePath(out)) if isinstance(sweep, Mapping) else FilePath(sweep)
-    native = _percuss.Sweep(path)
+    native = _percuss.Sweep(path, projectile_law, target_law, own)
     folder = _percuss.SweepFolder(out, native, resume)
     try:
         with watching(progress) as hear:
@@ -164,7 +185,7 @@ def sweep(
     return SweepResult(out)
 
 
-def merge(folders: Path | Sequence[Path], out: Path) -> int:
+def merge(folders: Path | Sequence[Path], out: Path, *, units: str | None = None) -> int:
     """Joins folders that hold all parts of a sweep into one Parquet file, as ``percuss sweep merge`` does.
 
     Parameters
@@ -173,13 +194,15 @@ def merge(folders: Path | Sequence[Path], out: Path) -> int:
         Folders of results.
     out : path
         File to write; it is replaced if it exists.
+    units : str, optional
+        Unit system of the columns, such as ``"mm-ms-kN"``; their names say so. The units of the folder when not given.
 
     Returns
     -------
     int
         Number of rows.
     """
-    rows: int = answer("sweep merge", *several(folders), out=out)
+    rows: int = answer("sweep merge", *several(folders), out=out, units=units)
     return rows
 
 

@@ -60,6 +60,7 @@ class ResultValues:
     energy_residual: float | None
     momentum_residual: float | None
     fragments: list[Record]
+    measured_curves: list[Record]
     details: list[Record]
     warnings: list[str]
 

@@ -8,27 +8,37 @@ use std::{
 };
 
 use parquet::{
-    column::writer::ColumnCloseResult,
+    basic::Type as PhysicalType,
+    column::{reader::ColumnReader, writer::ColumnCloseResult},
+    data_type::DoubleType,
     errors::ParquetError,
     file::{
         metadata::KeyValue,
         properties::WriterProperties,
         reader::{FileReader, SerializedFileReader},
-        writer::SerializedFileWriter,
+        writer::{SerializedFileWriter, SerializedRowGroupWriter},
     },
+    schema::types::Type,
 };
 
-use percuss::input_file::{self, MAX_OWN_BYTES};
+use percuss::{
+    input_file::{self, MAX_OWN_BYTES},
+    units::UnitSystem,
+};
 
 use super::{block_file, is_sweep_file, manifest::Manifest, parts::Parts};
 use crate::{ReportError, replace_file::replace_file_durably};
 
 /// Joins the blocks of folders that hold parts of one sweep into one Parquet file, in the order of the shots: a row group a
-/// block. The file depends on the sweep alone, not on who computed which block. Returns the number of rows.
+/// block. Columns are in the units of a system where one is given. The file depends on the sweep alone, not on who computed which block. Returns the number of rows.
 ///
 /// # Errors
 /// [`ReportError::Sweep`] when a folder holds another sweep or a block is missing; [`ReportError::Write`]; [`ReportError::Table`].
-pub fn merge(folders: &[PathBuf], out: &Path) -> Result<u64, ReportError> {
+pub fn merge(
+    folders: &[PathBuf],
+    out: &Path,
+    units: Option<UnitSystem>,
+) -> Result<u64, ReportError> {
     let parts = Parts::open(folders)?;
     let files: Vec<Option<PathBuf>> = parts.files().collect();
     let missing = files.iter().filter(|file| file.is_none()).count();
@@ -62,9 +72,58 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<u64, ReportError> {
     })?;
     replace_file_durably(folder, &name, |file| {
         // What is wrong with the blocks comes out as an error of the system too: their footers were read before.
-        join(&files, &parts.manifest, file).map_err(io::Error::other)
+        join(&files, &parts.manifest, units, file).map_err(io::Error::other)
     })?;
     Ok(parts.manifest.shots)
+}
+
+/// Name and factor of a column of numbers in a unit system; `None` where it stays as it is.
+fn conversion(column: &Type, units: Option<UnitSystem>) -> Option<(String, f64)> {
+    let is_number = column.is_primitive() && column.get_physical_type() == PhysicalType::DOUBLE;
+    let units = units.filter(|_| is_number)?;
+    units.column(column.name())
+}
+
+/// The schema with the names of columns in a unit system.
+fn converted_schema(
+    schema: Arc<Type>,
+    units: Option<UnitSystem>,
+) -> Result<Arc<Type>, ParquetError> {
+    let fields = schema.get_fields().iter().map(|field| {
+        let Some((name, _)) = conversion(field, units) else {
+            return Ok(Arc::clone(field));
+        };
+        let renamed = Type::primitive_type_builder(&name, field.get_physical_type())
+            .with_repetition(field.get_basic_info().repetition());
+        Ok(Arc::new(renamed.build()?))
+    });
+    let fields: Vec<Arc<Type>> = fields.collect::<Result<_, ParquetError>>()?;
+    let group = Type::group_type_builder(schema.name()).with_fields(fields);
+    Ok(Arc::new(group.build()?))
+}
+
+/// Writes a column of numbers times a factor.
+fn scale(
+    source: ColumnReader,
+    rows: usize,
+    factor: f64,
+    group: &mut SerializedRowGroupWriter<'_, &mut File>,
+) -> Result<(), ParquetError> {
+    let ColumnReader::DoubleColumnReader(mut source) = source else {
+        return Err(ParquetError::General(
+            "a column of numbers has texts".to_owned(),
+        ));
+    };
+    let (mut values, mut levels) = (Vec::new(), Vec::new());
+    source.read_records(rows, Some(&mut levels), None, &mut values)?;
+    values.iter_mut().for_each(|value| *value *= factor);
+    let Some(mut column) = group.next_column()? else {
+        return Err(ParquetError::General("a column is missing".to_owned()));
+    };
+    let levels = (!levels.is_empty()).then_some(levels.as_slice());
+    let writer = column.typed::<DoubleType>();
+    writer.write_batch(&values, levels, None)?;
+    column.close()
 }
 
 /// Whether a name in a folder is that of a file that a sweep's folder holds, one of `folders`.
@@ -76,8 +135,13 @@ fn is_part(folders: &[PathBuf], folder: &Path, name: &str) -> bool {
     is_merged && is_sweep_file(name)
 }
 
-/// Copies the encoded columns: nothing is decoded, and memory stays flat.
-fn join(files: &[PathBuf], manifest: &Manifest, out: &mut File) -> Result<(), ParquetError> {
+/// Copies the encoded columns; only those in other units are decoded, a block at a time, so that memory stays flat.
+fn join(
+    files: &[PathBuf],
+    manifest: &Manifest,
+    units: Option<UnitSystem>,
+    out: &mut File,
+) -> Result<(), ParquetError> {
     let open = |path: &PathBuf| {
         input_file::open(path, MAX_OWN_BYTES)
             .map_err(|error| ParquetError::General(error.to_string()))
@@ -90,6 +154,7 @@ fn join(files: &[PathBuf], manifest: &Manifest, out: &mut File) -> Result<(), Pa
         .file_metadata()
         .schema_descr()
         .root_schema_ptr();
+    let schema = converted_schema(schema, units)?;
     let properties = WriterProperties::builder()
         .set_created_by(concat!("percuss ", env!("CARGO_PKG_VERSION")).to_owned())
         .build();
@@ -97,9 +162,15 @@ fn join(files: &[PathBuf], manifest: &Manifest, out: &mut File) -> Result<(), Pa
     for path in files {
         let source = open(path)?;
         let reader = SerializedFileReader::new(open(path)?)?;
-        let group = reader.metadata().row_group(0);
+        let rows = reader.get_row_group(0)?;
+        let group = rows.metadata();
         let mut copy = writer.next_row_group()?;
-        for column in group.columns() {
+        for (at, column) in group.columns().iter().enumerate() {
+            if let Some((_, factor)) = conversion(column.column_descr().self_type(), units) {
+                let count = group.num_rows() as usize;
+                scale(rows.get_column_reader(at)?, count, factor, &mut copy)?;
+                continue;
+            }
             copy.append_column(
                 &source,
                 ColumnCloseResult {

@@ -178,7 +178,7 @@ fn parity(
     let chart = series(groups, symbols, point)
         .into_iter()
         .fold(chart, LineChart::series);
-    chart.draw()
+    chart.square().draw()
 }
 
 fn residuals(

@@ -1,6 +1,7 @@
 //! Figures of the benchmark: one error map per candidate, and depth versus impact velocity per pair of materials and length.
 
 use percuss::{
+    material::Library,
     model_error::{
         ErrorRecord, candidates,
         design::{LENGTHS, VELOCITIES},
@@ -10,7 +11,7 @@ use percuss::{
 use percuss_report::{Axis, Figure, HeatMap, LineChart, Series, Style, palette};
 
 use super::tables::signed;
-use crate::benchmark::{PAIRS, pair_name};
+use crate::benchmark::PAIRS;
 
 /// Length-to-diameter ratio of the depth figures in Markdown, one per pair of materials.
 const SHOWN: f64 = 3.0;
@@ -18,6 +19,9 @@ const SHOWN: f64 = 3.0;
 const STRONGEST: f64 = 1.0;
 /// Height of an error map [px].
 const MAP_HEIGHT: f64 = 330.0;
+
+/// Candidates in a figure of depths: more lines cannot be told apart.
+const CANDIDATES: usize = 6;
 
 /// All figures.
 pub(super) struct BenchmarkFigures {
@@ -32,11 +36,12 @@ pub(super) struct BenchmarkFigures {
 impl BenchmarkFigures {
     /// Draws all figures with results.
     pub(super) fn of(verdicts: &[ErrorRecord]) -> Self {
+        let names = of_widest_use(verdicts);
         let of_length = |wanted: &dyn Fn(f64) -> bool| {
             let mut drawn = Vec::new();
             for (projectile, target) in PAIRS {
                 for &length in LENGTHS.iter().filter(|length| wanted(**length)) {
-                    drawn.extend(depths(verdicts, projectile, target, length));
+                    drawn.extend(depths(verdicts, &names, projectile, target, length));
                 }
             }
             drawn
@@ -125,7 +130,39 @@ fn map(verdicts: &[ErrorRecord], candidate: &str) -> Option<Figure> {
     )
 }
 
-fn depths(verdicts: &[ErrorRecord], projectile: &str, target: &str, length: f64) -> Option<Figure> {
+/// Candidates with the smallest median error among those with a depth in half of the cases that any candidate has one in.
+fn of_widest_use(verdicts: &[ErrorRecord]) -> Vec<&'static str> {
+    let errors_of = |name: &str| {
+        let own = verdicts.iter().filter(|v| v.candidate == name);
+        sorted(own.map(|v| v.error().abs()))
+    };
+    let all = candidates();
+    let errors = all.iter().map(|c| (c.name, errors_of(c.name)));
+    let errors: Vec<(&str, Vec<f64>)> = errors.collect();
+    let most = errors.iter().map(|(_, e)| e.len()).max().unwrap_or(0);
+    let mut wide: Vec<(&str, f64)> = errors
+        .iter()
+        .filter(|(_, errors)| 2 * errors.len() >= most && !errors.is_empty())
+        .map(|(name, errors)| (*name, quantile(errors, 0.5)))
+        .collect();
+    wide.sort_by(|a, b| a.1.total_cmp(&b.1));
+    wide.truncate(CANDIDATES);
+    wide.into_iter().map(|(name, _)| name).collect()
+}
+
+/// The name of a material of the library; of another one, its id.
+fn material(id: &str) -> String {
+    let entry = Library::built_in().find(id);
+    entry.map_or_else(|| id.to_owned(), |entry| entry.material.name.clone())
+}
+
+fn depths(
+    verdicts: &[ErrorRecord],
+    names: &[&str],
+    projectile: &str,
+    target: &str,
+    length: f64,
+) -> Option<Figure> {
     let own: Vec<&ErrorRecord> = verdicts
         .iter()
         .filter(|v| {
@@ -141,29 +178,32 @@ fn depths(verdicts: &[ErrorRecord], projectile: &str, target: &str, length: f64)
     }
     let chart = LineChart::new(
         format!("depth-{}-on-{}-{length}", stem(projectile), stem(target)),
-        format!("{}, L/D {length}", pair_name(projectile, target)),
+        format!(
+            "{} on {}, L/D {length}",
+            material(projectile),
+            material(target)
+        ),
         Axis::new("Impact velocity (m/s)"),
         Axis::new("Depth of penetration (mm)").log(),
     )
-    .caption("depth of penetration versus impact velocity; error bars: uncertainty of the reference due to the cell size");
-    let chart = candidates()
-        .iter()
-        .enumerate()
-        .fold(chart, |chart, (i, candidate)| {
-            let points = own
-                .iter()
-                .filter(|v| v.candidate == candidate.name)
-                .map(|v| (v.impact_velocity_m_s, v.depth_of_penetration_mm));
-            let points: Vec<(f64, f64)> = points.collect();
-            match points.is_empty() {
-                true => chart,
-                false => chart.series(
-                    Series::new(candidate.name, points)
-                        .style(Style::LineAndMarkers)
-                        .symbol(i),
-                ),
-            }
-        });
+    .caption(
+        "candidates of smallest median error; bars: uncertainty of the reference due to its cells",
+    );
+    let chart = names.iter().enumerate().fold(chart, |chart, (i, name)| {
+        let points = own
+            .iter()
+            .filter(|v| v.candidate == *name)
+            .map(|v| (v.impact_velocity_m_s, v.depth_of_penetration_mm));
+        let points: Vec<(f64, f64)> = points.collect();
+        match points.is_empty() {
+            true => chart,
+            false => chart.series(
+                Series::new(*name, points)
+                    .style(Style::LineAndMarkers)
+                    .symbol(i),
+            ),
+        }
+    });
     let bars = reference.iter().map(|v| {
         let size = v.reference_uncertainty_mm;
         // A logarithmic axis cannot show a bar that ends at zero.

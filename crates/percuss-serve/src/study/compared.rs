@@ -40,7 +40,7 @@ pub(super) fn compared(job: &Job<'_>) -> Result<Study, Problem> {
         .map(|quantity| quantity_record(&comparison, *quantity, speeds[0]))
         .collect();
     let chart = compare_chart(&scenario, &comparison);
-    let files: Vec<_> = csv_files(comparison_files(&comparison)?)
+    let files: Vec<_> = csv_files(comparison_files(&comparison, None)?)
         .chain([("compare.json".to_owned(), pretty(&comparison))])
         .collect();
     let record = json!({ "comparison": comparison, "regimes": regimes, "quantities": quantities });

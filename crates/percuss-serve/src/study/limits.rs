@@ -1,10 +1,11 @@
 //! Ballistic limits.
 
 use percuss::{
+    axisymmetric::Request,
     limit::{self, RearFace, Search},
     model,
 };
-use percuss_report::{limit_chart, limit_files};
+use percuss_report::{axisymmetric_limit, limit_chart, limit_files, limit_headline};
 use serde_json::json;
 
 use super::{Job, Study, csv_files};
@@ -17,13 +18,12 @@ pub(super) fn limits(job: &Job<'_>) -> Result<Study, Problem> {
     let mut watch = limit::Observer {
         progress: Some(&mut report),
     };
-    let limits = limit::limits(
-        &model::fast_models(),
-        &scenario,
-        &Search::default(),
-        &mut watch,
-    )
-    .map_err(|error| job.stop.problem(error))?;
+    let search = Search {
+        axisymmetric: Some(Request::unasked()),
+        ..Search::default()
+    };
+    let limits = limit::limits(&model::fast_models(), &scenario, &search, &mut watch)
+        .map_err(|error| job.stop.problem(error))?;
     let chart = limit_chart(&scenario, &limits);
     let outcomes: Vec<&str> = limits
         .results
@@ -39,6 +39,8 @@ pub(super) fn limits(job: &Job<'_>) -> Result<Study, Problem> {
         .chain([("limit.json".to_owned(), pretty(&limits))])
         .collect();
     let record = json!({
+        "headline": limit_headline(&limits),
+        "axisymmetric": axisymmetric_limit(&limits),
         "measured": limits.measured().map(|(value, _)| value),
         "limits": limits,
         "outcomes": outcomes,

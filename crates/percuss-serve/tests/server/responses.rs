@@ -138,7 +138,7 @@ fn files_are_those_of_a_run_folder() {
     let scenario = case::load_str("shot", PAPER).unwrap();
     let chain = model::model("chain").unwrap();
     let result = model::run(chain, &scenario, &mut Control::recording()).unwrap();
-    for (name, content) in percuss_report::history_files(&result).unwrap() {
+    for (name, content) in percuss_report::history_files(&result, None).unwrap() {
         let answer = file(name);
         assert!(answer.body == content, "{name}");
         assert!(answer.head.contains("content-disposition: attachment"));
@@ -162,7 +162,7 @@ fn files_are_those_of_a_run_folder() {
 fn the_page_comes_with_its_first_answer() {
     let served = Served::new(Options::default());
     let page = served.get("/", "").text();
-    assert!(page.contains("<dt>depth of penetration</dt><dd>0.20328 mm</dd>"));
+    assert!(page.contains("<dt>depth of penetration</dt><dd>0.203 mm</dd>"));
     let start = page.split("id=\"data\">").nth(1).unwrap();
     let data: Value = serde_json::from_str(start.split("</script>").next().unwrap()).unwrap();
     assert_eq!(

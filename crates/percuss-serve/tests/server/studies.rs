@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use percuss::{
+    axisymmetric::Request,
     case::{self, Document},
     compare, limit,
     model::{self, model},
@@ -134,10 +135,14 @@ fn limits_are_those_of_the_library_and_say_what_they_rest_on() {
     let answer = served.post("/api/study/limit", &json!({ "name": "shot", "case": text }));
     let done = answer.lines().pop().unwrap()["done"].clone();
     let scenario = case::load_str("shot", text).unwrap();
+    let search = limit::Search {
+        axisymmetric: Some(Request::unasked()),
+        ..limit::Search::default()
+    };
     let found = limit::limits(
         &model::fast_models(),
         &scenario,
-        &limit::Search::default(),
+        &search,
         &mut limit::Observer::default(),
     );
     let printed = serde_json::to_string(&found.unwrap()).unwrap();

@@ -68,7 +68,7 @@ fn the_files_of_the_page_give_its_rows_on_the_command_line() {
     let stop = AtomicBool::new(false);
     rows.compute(&sweep, &kernel, &rows.missing(1, 1), &stop, &|_| {})
         .unwrap();
-    merge(&[at("rows")], &at("rows.parquet")).unwrap();
+    merge(&[at("rows")], &at("rows.parquet"), None).unwrap();
 
     let file = SerializedFileReader::new(File::open(at("rows.parquet")).unwrap()).unwrap();
     let schema = file.metadata().file_metadata().schema_descr();

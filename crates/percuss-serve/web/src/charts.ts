@@ -17,7 +17,7 @@ const HEIGHT = 250;
 // A rectangle narrower than this [px] zooms only along the other axis.
 const NARROW = 24;
 const FONT = "12px system-ui, sans-serif";
-const number = (value: number | null | undefined) => (value == null ? "–" : significant(value));
+const number = (value: number | null | undefined) => (value == null ? "" : significant(value));
 
 // Chart with frame, title and caption, updated with its data.
 export class ChartView {
@@ -265,7 +265,7 @@ function seriesOf(chart: Chart, current: () => Chart): uPlot.Series[] {
           fillTo: 0,
           // What is read off is the height of the area itself.
           value: (_: uPlot, __: number, ___: number, at: number | null) =>
-            at === null ? "–" : number((current() as AreaChart).areas[index]?.heights[at]),
+            at === null ? "" : number((current() as AreaChart).areas[index]?.heights[at]),
         };
       });
     case "map": return [{ label: chart.value_label }];

@@ -8,6 +8,7 @@ type Beside = Pick<Answer, "model" | "results">;
 
 // Room beside the outermost values, as a part of their range.
 const ROOM = 0.06;
+const DIGITS = 3;
 
 export class Estimate {
   readonly element: HTMLElement;
@@ -60,6 +61,12 @@ export class Estimate {
     this.element.classList.toggle("stale", this.stages.length > 0);
   }
 
+  // Name and number of the answer so far; null without one of this case.
+  get answer(): [string, string] | null {
+    const isStale = this.element.classList.contains("stale");
+    return isStale ? null : (this.stages.at(-1)?.headline ?? null);
+  }
+
   idle(): void {
     this.running.hidden = true;
     this.more.hidden = this.stages.length === 0;
@@ -89,7 +96,7 @@ export class Estimate {
     const on = (count: number) => (count === 1 ? "first mesh" : `${count} meshes`);
     const first = last.meshes.at(-1)?.[1];
     const name = last.headline?.[0].replace("Axisymmetric ", "") ?? last.quantity.replaceAll("_", " ").replace(/ (mm|m s)$/, "");
-    const number = last.headline?.[1] ?? (first == null ? "none" : `${significant(first)} ${last.unit}`);
+    const number = last.headline?.[1] ?? (first == null ? "none" : `${significant(first, DIGITS)} ${last.unit}`);
     const own = this.own(last);
     const shown: [string, string][] = [[`${name}, ${on(last.meshes.length)}`, number]];
     if (own) shown.push([`one-dimensional (${own.model})`, own.words]);
@@ -108,7 +115,7 @@ export class Estimate {
     if (typeof value !== "number" || !this.beside) return null;
     const off = last.value ? 100 * (value / last.value - 1) : null;
     const difference = off === null ? "" : `, ${off > 0 ? "+" : "−"}${Math.abs(off).toFixed(0)} %`;
-    return { model: this.beside.model, value, words: `${significant(value)} ${last.unit}${difference}` };
+    return { model: this.beside.model, value, words: `${significant(value, DIGITS)} ${last.unit}${difference}` };
   }
 
   // The number after each mesh with its uncertainty.
@@ -122,10 +129,10 @@ export class Estimate {
       if (value == null) return [];
       const name = `${stage.cells} cells`;
       const range: [number, number] | null = stage.uncertainty === null ? null : [value - stage.uncertainty, value + stage.uncertainty];
-      const words = stage.headline?.[1].replace(` ${last.unit}`, "") ?? significant(value);
+      const words = stage.headline?.[1].replace(` ${last.unit}`, "") ?? significant(value, DIGITS);
       return [{ name, color: axisymmetric, value, range, words }];
     });
-    if (own !== null) list.push({ name: this.beside?.model ?? "", color: beside, value: own, range: null });
+    if (own !== null) list.push({ name: this.beside?.model ?? "", color: beside, value: own, range: null, words: significant(own, DIGITS) });
     const ends = list.flatMap((row) => row.range ?? [row.value]);
     if (ends.length === 0) return [];
     const [low, high] = [Math.min(...ends), Math.max(...ends)];

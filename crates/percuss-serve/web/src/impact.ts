@@ -118,6 +118,11 @@ export class Impact {
     this.paint();
   }
 
+  // The picture shown, as an address; null without one of this case.
+  still(): string | null {
+    return this.element.hidden || this.element.classList.contains("stale") ? null : this.canvas.toDataURL("image/png");
+  }
+
   private get frame(): Frame | undefined {
     return this.shown?.frames[this.index];
   }

@@ -11,9 +11,11 @@ import { fromFragment, toFragment } from "./link";
 import { Numbers } from "./parameters";
 import { explained } from "./problem";
 import { Refinement } from "./refinement";
+import { report } from "./report";
 import { SideBySide } from "./side";
 import { studies } from "./studies";
 import type { Answer, Problem, Start } from "./types";
+import { History, Variants } from "./variants";
 
 // Time without motion after which a slider is at rest [ms].
 const REST_MS = 150;
@@ -29,7 +31,13 @@ const others: ChartView[] = [];
 const form = new Form(start, (edits, moving) => ask(edits, moving));
 const numbers = new Numbers(start.fields);
 const sideBySide = new SideBySide(get("comparison-body"), others);
-const refinement = new Refinement(() => name || "case", (time, rests) => [...views.values()].forEach((view) => view.mark(time, rests)));
+const refinement = new Refinement(
+  () => name || "case",
+  (time, rests) => [...views.values()].forEach((view) => view.mark(time, rests)),
+  () => variants.refine(),
+);
+const variants = new Variants(() => name, () => refinement.answer, load);
+const past = new History(load);
 
 let name = start.name;
 // null: the server selects the model.
@@ -111,6 +119,7 @@ function show(answer: Answer, since: number | null, draft: boolean): void {
   model = answer.model;
   models.value = answer.model;
   form.show(answer.values, answer.model);
+  get("own-title").textContent = `Numbers of model ${answer.model}`;
   get("numbers").replaceChildren(...pairs(answer.rows[0]));
   get("more-numbers").querySelector("dl")?.replaceChildren(...pairs([...answer.rows[1], ...answer.rows[2]]));
   const warnings = answer.results.results[0]?.warnings ?? [];
@@ -126,6 +135,8 @@ function show(answer: Answer, since: number | null, draft: boolean): void {
   get("status").textContent = took || `computed in ${run}`;
   document.documentElement.dataset["answers"] = String(Number(document.documentElement.dataset["answers"] ?? 0) + 1);
   if (draft) return;
+  past.add({ name, case: answer.case, model: answer.model });
+  variants.follow(answer);
   numbers.follow(answer);
   sideBySide.follow({ name, case: answer.case });
   refinement.follow({ name, case: answer.case }, answer);
@@ -146,10 +157,16 @@ function showCharts(answer: Answer): void {
     }
     return { chart, view };
   });
-  const elements = [refinement.impact.element, ...charts.map(({ view }) => view.element)];
-  const box = get("charts");
-  if (elements.length !== box.children.length || elements.some((element, i) => element !== box.children[i])) box.replaceChildren(...elements);
+  // The first one stands beside the numbers, where it is seen to follow a slider.
+  const [first, ...further] = charts.map(({ view }) => view.element);
+  place(get("seen"), first ? [refinement.impact.element, first] : [refinement.impact.element]);
+  place(get("charts"), further);
   for (const { chart, view } of charts) view.show(chart);
+}
+
+// Puts elements into a box, unless they are there.
+function place(box: HTMLElement, elements: HTMLElement[]): void {
+  if (elements.length !== box.children.length || elements.some((element, i) => element !== box.children[i])) box.replaceChildren(...elements);
 }
 
 function refuse(problem: Problem): void {
@@ -176,11 +193,26 @@ async function take(file: string): Promise<void> {
   }
 }
 
+async function takeReport(answer: Answer): Promise<void> {
+  const best = refinement.answer;
+  const impact = refinement.impact.still();
+  try {
+    const figures = await Promise.all(answer.charts.map(async ({ name: chart, title }) => {
+      const content = await postForFile("/api/file", { name, case: answer.case, model: answer.model, file: `${chart}.svg` });
+      return { title, svg: await content.text() };
+    }));
+    download(`${name || "case"}-report.html`, report({ name, answer, best, impact, figures }), "text/html");
+  } catch (error) {
+    if (error instanceof Refused) refuse(error.problem);
+  }
+}
+
 function downloads(answer: Answer): void {
   const history = answer.charts.length ? ["history.csv", "final-profile.csv", "history.parquet", "profiles.parquet"] : [];
   const figures = answer.charts.map((chart) => `${chart.name}.svg`);
   const whole = button("scenario.toml", () => download("scenario.toml", text.value, "application/toml"));
-  get("downloads").replaceChildren(whole, ...["result.json", ...history, ...figures].map((file) => button(file, () => void take(file))));
+  const all = button("report.html", () => void takeReport(answer));
+  get("downloads").replaceChildren(whole, all, ...["result.json", ...history, ...figures].map((file) => button(file, () => void take(file))));
 }
 
 function load(state: { name: string; case: string; model: string | null }): void {
@@ -224,6 +256,7 @@ function build(): void {
     ask();
   });
   text.addEventListener("input", () => ask());
+  get("to-studies").addEventListener("click", () => get("studies-title").scrollIntoView());
   get("validation").addEventListener("click", () => void validate());
   get("link").addEventListener("click", () => {
     void navigator.clipboard?.writeText(location.href).then(

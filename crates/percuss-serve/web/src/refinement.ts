@@ -21,9 +21,11 @@ export class Refinement {
   // The case that is refined, or was; null after a change.
   private text: string | null = null;
 
-  constructor(name: () => string, follow: (time: number | null, rests: boolean) => void) {
+  // `heard` is called after each mesh.
+  constructor(name: () => string, follow: (time: number | null, rests: boolean) => void, private heard: () => void) {
     this.impact = new Impact(name, follow);
-    get("top").append(this.estimate.element);
+    get("side").prepend(this.estimate.element);
+    get("seen").append(this.impact.element);
     addEventListener("pagehide", () => this.stop());
   }
 
@@ -34,6 +36,11 @@ export class Refinement {
     this.stop();
     this.text = asked.case;
     this.timer = window.setTimeout(() => void this.run(asked), REST_MS);
+  }
+
+  // Name and number of the answer so far.
+  get answer(): [string, string] | null {
+    return this.estimate.answer;
   }
 
   // Whether a case is the one that is refined.
@@ -81,6 +88,7 @@ export class Refinement {
       this.estimate.add(answer);
       this.impact.end(answer.cells);
       if (answer.meshes.length === 0) this.estimate.none(answer.reason ?? "", null);
+      this.heard();
     }
     if (problem) this.fail(problem);
     if (done) this.estimate.idle();

@@ -58,7 +58,7 @@ export function convergence({ study, words }: Convergence): HTMLElement[] {
 }
 
 export function limits(study: Limits): HTMLElement[] {
-  const { results, recommended, note, range } = study.limits;
+  const { results, recommended, note, range, axisymmetric } = study.limits;
   const chosen = new Map(recommended.map((choice) => [choice.model, choice.because]));
   const found = results.filter((limit) => limit.outcome === "found");
   const lines = found.map((limit) => [
@@ -69,6 +69,10 @@ export function limits(study: Limits): HTMLElement[] {
   ]);
   if (study.measured !== null) lines.push(["experiment", number(study.measured, 5), "", ""]);
   const said: HTMLElement[] = [];
+  if (study.headline) said.push(make("p", {}, make("b", {}, study.headline)));
+  if (study.axisymmetric && !chosen.has("axi")) said.push(make("p", {}, `Axisymmetric limit ${study.axisymmetric}`));
+  if (axisymmetric?.reason) said.push(make("p", {}, `No axisymmetric limit: ${axisymmetric.reason}`));
+  for (const warning of axisymmetric?.warnings ?? []) said.push(make("p", {}, `axi: ${warning}`));
   if (study.rear_face) said.push(make("p", {}, study.rear_face));
   for (const [model, because] of chosen) said.push(make("p", {}, make("b", {}, `Recommended: ${model} ★ `), because));
   if (note) said.push(make("p", {}, note));

@@ -136,6 +136,8 @@ export interface Convergence extends Study {
 }
 
 export interface Limits extends Study {
+  headline: string | null;
+  axisymmetric: string | null;
   measured: number | null;
   outcomes: string[];
   rear_face: string | null;
@@ -144,6 +146,7 @@ export interface Limits extends Study {
     recommended: { model: string; because: string }[];
     note: string | null;
     range: { lowest_m_s: number; highest_m_s: number; models: number } | null;
+    axisymmetric: { reason: string | null; warnings: string[] } | null;
     results: {
       model: string;
       outcome: string;

@@ -21,6 +21,7 @@ test("a chart is zoomed by a rectangle, and a double click shows all of it again
   // The impact, which comes later, moves the charts.
   await page.locator('#refined[data-meshes="4"]').waitFor({ timeout: 60_000 });
   const whole = await pixels(page, "depth-time");
+  await chart.scrollIntoViewIfNeeded();
   const box = await chart.locator(".u-over").boundingBox();
   const at = (x, y) => [box.x + x * box.width, box.y + y * box.height];
   await page.mouse.move(...at(0.1, 0.2));

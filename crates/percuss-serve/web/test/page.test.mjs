@@ -8,7 +8,7 @@ import { answered, complaints, number, open, paperCase, pixels, program, scratch
 
 test("the first paint shows the answer", async () => {
   const still = await open("/", { javaScriptEnabled: false });
-  assert.equal(await number(still, "depth of penetration"), "0.20328 mm");
+  assert.equal(await number(still, "depth of penetration"), "0.203 mm");
   await still.context().close();
 
   const page = await open();
@@ -17,7 +17,7 @@ test("the first paint shows the answer", async () => {
   // Without the state that the address has taken on by now.
   await page.goto(new URL("/", page.url()).href);
   await answered(page, 1);
-  assert.equal(await number(page, "depth of penetration"), "0.20328 mm");
+  assert.equal(await number(page, "depth of penetration"), "0.203 mm");
   for (const chart of ["depth-time", "velocity-time", "energy-time", "stress-xt"]) {
     assert.ok(await page.locator(`figure[data-chart="${chart}"] canvas`).first().isVisible(), chart);
   }
@@ -64,7 +64,7 @@ test("curves and text follow a slider while it moves", async () => {
   const printed = JSON.parse(execFileSync(program, ["run", text, "--fast", "--json"], { encoding: "utf8" }));
   const depth = Number((await number(page, "depth of penetration")).split(" ")[0]);
   const exact = printed.results[0].depth_of_penetration_mm;
-  assert.ok(Math.abs(depth / exact - 1) < 1e-4, `${depth} and ${exact}`);
+  assert.ok(Math.abs(depth / exact - 1) < 5e-3, `${depth} and ${exact}`);
   await page.context().close();
 });
 

@@ -35,7 +35,7 @@ test("a picture of the impact", async () => {
   const boxes = [];
   for (const figure of ["#impact", 'figure[data-chart="depth-time"]']) boxes.push(await page.locator(figure).boundingBox());
   const [x, y] = [boxes[0].x, boxes[0].y];
-  const clip = { x, y, width: boxes[1].x + boxes[1].width - x, height: boxes[0].height };
+  const clip = { x, y, width: boxes[0].width, height: boxes[1].y + boxes[1].height - y };
   await page.mouse.move(0, 0);
   await page.screenshot({ path: join(folder, `${name}.png`), clip });
   await page.context().close();

@@ -40,10 +40,11 @@ use crate::{
 
 pub use cost::{BUDGET, seconds};
 pub use limit::{MeshLimit, limit};
+pub(crate) use plan::too_costly;
 pub use plan::{Plan, ReferenceMeshes, Request, plan};
 
 /// Name of the model.
-const MODEL: &str = "axi";
+pub const MODEL: &str = "axi";
 /// Fewest meshes of an answer: one alone has no uncertainty.
 const FEWEST: usize = 2;
 

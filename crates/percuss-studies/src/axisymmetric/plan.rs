@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 
 use serde::Serialize;
 
-use super::{AxisymmetricAnswer, MODEL, answer, seconds};
+use super::{AxisymmetricAnswer, BUDGET, MODEL, answer, seconds};
 use crate::{
     Error, Refusal, Scenario,
-    model::{self, memory},
+    model::{self, memory, time_in_words},
 };
 
 /// Meshes of an axisymmetric answer.
@@ -71,14 +71,14 @@ pub fn plan(
     model::applicability(axi, scenario)?;
     let all = reference.cells();
     // The meshes are run side by side.
-    let memory = all.map(|cells| axi.memory(&on_cells(scenario, cells)));
+    let memory = all.map(|cells| axi.estimate(&on_cells(scenario, cells)).memory);
     if let Some(refusal) = memory::refusal(memory.iter().sum()) {
         return Err(refusal);
     }
     let cost = |cells: &[u32]| cells.iter().map(|&n| seconds(scenario, n)).sum::<f64>();
     let whole = cost(&all);
     let within = |cost: f64| budget.is_none_or(|budget| cost <= budget);
-    let remedy = format!("`--reference {}` computes them", reference.name());
+    let remedy = remedy(reference);
     if within(whole) {
         return Ok(Plan {
             reference,
@@ -87,18 +87,26 @@ pub fn plan(
         });
     }
     let [coarser @ .., finest] = &all;
-    let expected = |seconds: f64| format!("about {} of processor time", in_words(seconds));
     if within(cost(coarser)) {
         return Ok(Plan {
             reference,
             cells: coarser.to_vec(),
             note: Some(format!(
                 "the mesh of {finest} cells is left out: all meshes take {}; {remedy}",
-                expected(whole)
+                in_words(whole)
             )),
         });
     }
-    Err(Refusal::new(format!("the runs take {}", expected(whole))).with_remedy(remedy))
+    Err(too_costly(reference, whole))
+}
+
+/// Refusal of runs that take this processor time [s].
+pub(crate) fn too_costly(reference: ReferenceMeshes, seconds: f64) -> Refusal {
+    Refusal::new(format!("the runs take {}", in_words(seconds))).with_remedy(remedy(reference))
+}
+
+fn remedy(reference: ReferenceMeshes) -> String {
+    format!("`--reference {}` computes them", reference.name())
 }
 
 /// A case on a mesh.
@@ -108,13 +116,9 @@ pub(super) fn on_cells(scenario: &Scenario, cells_per_radius: u32) -> Scenario {
     scenario
 }
 
-/// A time as `90 s`, `5 min` or `2 h`.
+/// An expected processor time as `about 90 s of processor time`.
 fn in_words(seconds: f64) -> String {
-    match seconds {
-        ..120.0 => format!("{seconds:.0} s"),
-        ..7200.0 => format!("{:.0} min", seconds / 60.0),
-        _ => format!("{:.0} h", seconds / 3600.0),
-    }
+    format!("about {} of processor time", time_in_words(seconds))
 }
 
 /// Axisymmetric answer that a study asks for.
@@ -127,6 +131,22 @@ pub struct Request {
 }
 
 impl Request {
+    /// Standard meshes within [`BUDGET`]: what a command computes unasked.
+    pub fn unasked() -> Self {
+        Self {
+            meshes: ReferenceMeshes::default(),
+            budget: Some(BUDGET),
+        }
+    }
+
+    /// These meshes, whatever they cost.
+    pub fn whole(meshes: ReferenceMeshes) -> Self {
+        Self {
+            meshes,
+            budget: None,
+        }
+    }
+
     /// The answer of a case; where there is none, its reason. `progress` as in [`answer`].
     ///
     /// # Errors

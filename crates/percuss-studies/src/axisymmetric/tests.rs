@@ -224,7 +224,8 @@ fn meshes_count_together_against_the_memory() {
     "#;
     let mut scenario = case::load_str("long rod", text).unwrap();
     let axi = model::model("axi").unwrap();
-    let memory = |scenario: &Scenario, cells: u32| axi.memory(&plan::on_cells(scenario, cells));
+    let memory =
+        |scenario: &Scenario, cells: u32| axi.estimate(&plan::on_cells(scenario, cells)).memory;
     let limit = model::memory::memory_limit() as f64;
     scenario.projectile.length *= 0.8 * limit / memory(&scenario, 6);
     assert!(memory(&scenario, 6) < limit);

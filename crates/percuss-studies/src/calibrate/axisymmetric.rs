@@ -27,7 +27,7 @@ use super::{
 };
 use crate::{
     Error,
-    axisymmetric::{ReferenceMeshes, Request},
+    axisymmetric::{MODEL, ReferenceMeshes, Request},
     model,
     statistics::mean,
 };
@@ -112,7 +112,7 @@ impl Problem {
     }
 
     fn check_corrected(&self) -> Result<(), Error> {
-        if self.model.name() == "axi" {
+        if self.model.name() == MODEL {
             return Err(refuse(
                 "the model `axi` is not corrected by itself".to_owned(),
                 "leave the axisymmetric reference out, or give another model".to_owned(),
@@ -120,7 +120,7 @@ impl Problem {
         }
         let of_another_model = |parameter: &&Fitted| {
             let table = parameter.key().split('.').next().unwrap_or_default();
-            table != "axi" && model::model(table).is_ok()
+            table != MODEL && model::model(table).is_ok()
         };
         match self.fitted.iter().find(of_another_model) {
             Some(parameter) => Err(parameter.error(

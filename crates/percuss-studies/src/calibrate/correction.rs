@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::problem::Silent;
 use crate::{
     Error, Scenario,
-    axisymmetric::{AxisymmetricAnswer, Request, on_mesh, untouched},
+    axisymmetric::{self, AxisymmetricAnswer, Request, on_mesh, untouched},
     model::{self, Control, Progress},
     outcome::BandQuantity,
 };
@@ -121,7 +121,7 @@ fn number_on(
     cells: u32,
     report: &mut (dyn FnMut(f64) -> ControlFlow<()> + Send),
 ) -> Result<f64, Silent> {
-    let axi = model::model("axi").map_err(silent)?;
+    let axi = model::model(axisymmetric::MODEL).map_err(silent)?;
     let mut watch = |now: Progress| report(now.fraction);
     let mut control = Control {
         progress: Some(&mut watch),

@@ -9,15 +9,12 @@ use rayon::prelude::*;
 
 use crate::{
     Error, Scenario,
-    axisymmetric::Request,
+    axisymmetric::{MODEL, Request},
     model::{self, Control, Model},
     outcome::Band,
     regime::Regime,
     summary::ResultRecord,
 };
-
-/// Name of the axisymmetric model.
-const AXI: &str = "axi";
 
 /// How far a comparison has come.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,7 +75,7 @@ pub(super) fn all_of<'a>(
 ) -> Result<Vec<Entry<'a>>, Error> {
     let mut all = Vec::new();
     if let Some(request) = axisymmetric {
-        all.push(Entry::Axisymmetric(model::model(AXI)?, request));
+        all.push(Entry::Axisymmetric(model::model(MODEL)?, request));
     }
     all.extend(models.iter().map(|model| Entry::Model(*model)));
     Ok(all)
@@ -133,7 +130,7 @@ fn run_one(
         Entry::Model(model) => {
             let mut report = |now: model::Progress| update(now.fraction.clamp(0.0, 1.0));
             let mut control = Control {
-                record: false,
+                record: !scenario.measured_curves.is_empty(),
                 progress: Some(&mut report),
                 ..Control::default()
             };
@@ -158,8 +155,8 @@ fn axisymmetric_record(
 ) -> Result<ResultRecord, Error> {
     let answer = request.answer(scenario, report)?;
     let Some((quantity, finest)) = answer.quantity.zip(answer.finest) else {
-        let error = Error::not_applicable(AXI, answer.reason.unwrap_or_default());
-        return Ok(ResultRecord::without_result(scenario, AXI, &error));
+        let error = Error::not_applicable(MODEL, answer.reason.unwrap_or_default());
+        return Ok(ResultRecord::without_result(scenario, MODEL, &error));
     };
     let band = answer.value.zip(answer.uncertainty);
     let band = band.map(|(value, uncertainty)| Band {

@@ -1,8 +1,9 @@
 //! Check that a row makes a case: existing materials, quantities in their ranges.
 
-use super::{Experiment, Struck, row::CsvRow};
+use super::{Experiment, Struck};
 use crate::{
     check::Diagnostic,
+    csv_table::CsvRow,
     error::{InputError, Subject},
     material::Library,
 };

@@ -4,10 +4,8 @@
 //! the same columns.
 
 mod columns;
-pub(crate) mod header;
 mod materials;
 mod read;
-pub(crate) mod row;
 mod scenario;
 #[cfg(test)]
 mod tests;

@@ -5,10 +5,10 @@ use std::{collections::BTreeMap, path::Path};
 use super::{
     Experiment, Kind, Properties, Split, Strength, Struck,
     columns::{COLUMNS, RIGID_WALL, SEMI_INFINITE},
-    header, materials,
-    row::{CsvRow, CsvTable},
+    materials,
 };
 use crate::{
+    csv_table::{CsvRow, CsvTable, header},
     document::read_text,
     error::{Error, InputError},
     material::{Library, Trust},

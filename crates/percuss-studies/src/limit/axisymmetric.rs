@@ -5,19 +5,21 @@ use std::ops::ControlFlow;
 use serde::Serialize;
 
 use super::{
-    Bracket, LimitOutcome, ModelLimit, Observer, Progress, Range, Search,
-    jobs::{self, Scan},
+    Bracket, LimitOutcome, LimitRange, ModelLimit, Observer, Progress, Range, Search, Tolerance,
+    jobs::{self, Scan, planned_runs},
     run_results,
 };
 use crate::{
     Error, Scenario,
-    axisymmetric::{ReferenceMeshes, limit, seconds},
+    axisymmetric::{MODEL, ReferenceMeshes, Request, limit, seconds, too_costly},
     model::{self, Model},
     richardson::OnMesh,
 };
 
 /// Part of the limit of the mesh before, to either side, that a finer mesh is searched in first.
 const NEIGHBOURHOOD: f64 = 0.1;
+/// Part of the lowest and of the highest limit of other models between which the coarsest mesh is searched in first.
+const BESIDE: (f64, f64) = (0.5, 2.0);
 
 /// Ballistic limit by `axi` in the limit of fine meshes. The names are stable.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -53,34 +55,75 @@ pub struct LimitOnMesh {
     pub runs: usize,
 }
 
-/// Searches on each mesh: the coarsest across the whole range, the others about the limit of the one before.
+/// Narrowest bracket of a search within a budget, as a part of the velocity: meshes differ by more.
+const BRACKET: f64 = 0.005;
+
+/// A range to search in before the whole of it, and how closely.
+type First = (Range, Scan);
+
+/// Searches on each mesh: the coarsest about the limits of other models, the others about the limit of the one before; each across the
+/// whole range where there is none.
 pub(super) fn on_meshes(
     scenario: &Scenario,
-    reference: ReferenceMeshes,
+    request: &Request,
     search: &Search,
+    others: Option<LimitRange>,
     observer: &mut Observer<'_>,
 ) -> Result<AxisymmetricLimit, Error> {
-    let axi = model::model("axi")?;
+    let axi = model::model(MODEL)?;
+    let reference = request.meshes;
+    let without = |reason: String| AxisymmetricLimit {
+        reason: Some(reason),
+        ..of_meshes(reference, &[])
+    };
     if let Some((_, reason)) = run_results::unsuited(axi, scenario) {
-        return Ok(AxisymmetricLimit {
-            reason: Some(reason),
-            ..of_meshes(reference, &[])
-        });
+        return Ok(without(reason));
     }
+    let highest = search.range.to;
+    let closer = search.tolerance.at(highest) < BRACKET * highest;
+    let search = &Search {
+        tolerance: match request.budget {
+            Some(_) if closer => Tolerance::Relative(BRACKET),
+            _ => search.tolerance,
+        },
+        ..*search
+    };
+    let within = |from: f64, to: f64| Range {
+        from: search.range.from.max(from),
+        to: search.range.to.min(to),
+    };
+    let about = |limit: f64| -> First {
+        let near = within(limit * (1.0 - NEIGHBOURHOOD), limit * (1.0 + NEIGHBOURHOOD));
+        (near, Scan::COARSE)
+    };
+    let beside = others.map(|others| {
+        let near = within(BESIDE.0 * others.lowest_m_s, BESIDE.1 * others.highest_m_s);
+        (near, Scan::WHOLE)
+    });
     let cells = reference.cells();
-    let costs = cells.map(|cells| seconds(scenario, cells));
+    let mut runs = [about(search.range.to); 3];
+    runs[0] = beside.unwrap_or((search.range, Scan::WHOLE));
+    let mut costs = [0.0; 3];
+    for ((cost, cells), (range, scan)) in costs.iter_mut().zip(cells).zip(runs) {
+        let runs = planned_runs(&search_in(search, range), scan);
+        *cost = runs as f64 * seconds(scenario, cells);
+    }
     let whole: f64 = costs.iter().sum();
+    if request.budget.is_some_and(|budget| whole > budget) {
+        return Ok(without(too_costly(reference, whole).to_string()));
+    }
     let mut found: Vec<(u32, ModelLimit)> = Vec::new();
     let mut before = 0.0;
     for (cells, cost) in cells.into_iter().zip(costs) {
         let mut scenario = scenario.clone();
         scenario.options.axi.cells_per_radius = Some(cells);
         let runs = found.iter().map(|(_, entry)| entry.runs).sum();
-        let last = found
-            .last()
-            .and_then(|(_, entry)| entry.ballistic_limit_m_s);
+        let first = match found.last() {
+            None => beside,
+            Some((_, entry)) => entry.ballistic_limit_m_s.map(about),
+        };
         let share = [before, before + cost].map(|seconds| seconds / whole);
-        let entry = on_mesh(axi, &scenario, search, last, observer, (runs, share))?;
+        let entry = on_mesh(axi, &scenario, search, first, observer, (runs, share))?;
         before += cost;
         found.push((cells, entry));
     }
@@ -103,38 +146,39 @@ pub(super) fn part_of<'a>(
     }
 }
 
-/// The search on a mesh, about the limit of another one if that is known. Before it `runs` were computed, and it is the `share` from one
-/// part of the whole to another.
+/// The search in a range, for the limit alone.
+fn search_in(search: &Search, range: Range) -> Search {
+    Search {
+        range,
+        points: 0,
+        ..*search
+    }
+}
+
+/// The search on a mesh, `first` where a limit is expected. Before it `runs` were computed, and it is the `share` from one part of the
+/// whole to another.
 fn on_mesh(
     axi: &dyn Model,
     scenario: &Scenario,
     search: &Search,
-    last: Option<f64>,
+    first: Option<First>,
     observer: &mut Observer<'_>,
     (runs, [from, to]): (usize, [f64; 2]),
 ) -> Result<ModelLimit, Error> {
     let mut run = |range: Range, scan: Scan, runs: usize, share: [f64; 2]| {
-        let search = Search {
-            range,
-            points: 0,
-            ..*search
-        };
+        let search = search_in(search, range);
         let mut report = part_of(observer, runs, share);
         let mut observer = Observer {
             progress: Some(&mut report),
         };
         jobs::run_one(axi, scenario, &search, scan, &mut observer)
     };
-    let Some(last) = last else {
+    let Some((near, scan)) = first else {
         return run(search.range, Scan::WHOLE, runs, [from, to]);
-    };
-    let near = Range {
-        from: search.range.from.max(last * (1.0 - NEIGHBOURHOOD)),
-        to: search.range.to.min(last * (1.0 + NEIGHBOURHOOD)),
     };
     // Where the neighbourhood has no limit, the whole range takes most of the time.
     let middle = 0.7 * from + 0.3 * to;
-    let entry = run(near, Scan::COARSE, runs, [from, middle])?;
+    let entry = run(near, scan, runs, [from, middle])?;
     if entry.outcome == LimitOutcome::Found {
         let done = Progress {
             finished: entry.runs,

@@ -80,7 +80,7 @@ pub(super) fn run_one(
 }
 
 /// Runs that a model takes that finds its limit.
-fn planned_runs(search: &Search, scan: Scan) -> usize {
+pub(super) fn planned_runs(search: &Search, scan: Scan) -> usize {
     let range = search.range;
     let interval = (range.to - range.from) / f64::from(scan.0);
     let halvings = (interval / search.tolerance.at(0.5 * range.to)).log2();

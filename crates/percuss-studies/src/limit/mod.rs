@@ -33,7 +33,7 @@ use serde::Serialize;
 use crate::{
     Error, Scenario,
     analytic::InputLimit,
-    axisymmetric::ReferenceMeshes,
+    axisymmetric::Request,
     compare::{Choice, ExperimentRecord},
     model::Model,
     outcome::BandQuantity,
@@ -89,8 +89,8 @@ pub struct Search {
     pub tolerance: Tolerance,
     /// Residual velocities to compute above the limit; none for 0.
     pub points: usize,
-    /// Meshes on which the axisymmetric model is searched with, beside the models.
-    pub reference: Option<ReferenceMeshes>,
+    /// Search with the axisymmetric model, beside the models. Beyond the budget there is a reason in place of a limit.
+    pub axisymmetric: Option<Request>,
 }
 
 impl Default for Search {
@@ -102,7 +102,7 @@ impl Default for Search {
             },
             tolerance: Tolerance::Absolute(0.1),
             points: 12,
-            reference: None,
+            axisymmetric: None,
         }
     }
 }
@@ -246,7 +246,7 @@ pub fn limits(
     let free = with_free_rear_face(scenario);
     let scenario = free.as_ref().unwrap_or(scenario);
     // Runs of one-dimensional models and formulae take no time beside those of the axisymmetric model.
-    let share = match search.reference {
+    let share = match search.axisymmetric {
         Some(_) => ONE_DIMENSIONAL,
         None => 1.0,
     };
@@ -261,18 +261,20 @@ pub fn limits(
         let expected = limit.map(|limit| expected::expected_error(*model, scenario, limit));
         entry.expected_error = expected.flatten();
     }
+    let range = LimitRange::of(&results);
     let axisymmetric = search
-        .reference
-        .map(|meshes| {
+        .axisymmetric
+        .map(|request| {
             let runs = results.iter().map(|entry| entry.runs).sum();
             let mut report = axisymmetric::part_of(observer, runs, [share, 1.0]);
             let mut rest = Observer {
                 progress: Some(&mut report),
             };
-            axisymmetric::on_meshes(scenario, meshes, search, &mut rest)
+            axisymmetric::on_meshes(scenario, &request, search, range, &mut rest)
         })
         .transpose()?;
-    let (recommended, note) = recommended::recommended(models, scenario, &results);
+    let (recommended, note) =
+        recommended::recommended(models, scenario, &results, axisymmetric.as_ref());
     Ok(Limits {
         case: scenario.name.clone(),
         percuss_version: env!("CARGO_PKG_VERSION"),
@@ -280,7 +282,7 @@ pub fn limits(
         rear_face: RearFace::of(scenario),
         recommended,
         note,
-        range: LimitRange::of(&results),
+        range,
         axisymmetric,
         experiments: ExperimentRecord::all(scenario),
         results,

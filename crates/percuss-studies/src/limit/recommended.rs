@@ -1,12 +1,42 @@
 //! Models to rely on for a ballistic limit.
 
-use super::{LimitOutcome, ModelLimit};
-use crate::{Scenario, compare::Choice, model::Model, outcome::BandQuantity, regime::Regime};
+use super::{AxisymmetricLimit, LimitOutcome, ModelLimit};
+use crate::{
+    Scenario, axi, axisymmetric::MODEL, compare::Choice, model::Model, outcome::BandQuantity,
+    regime::Regime,
+};
 
 /// The first choices among the models that predict limits, each classified at its own limit, and what to know of them.
 ///
-/// A first choice that predicts depths alone has not been compared with measured limits: it is named, not recommended.
+/// A first choice that predicts depths alone has not been compared with measured limits: it is named, not recommended. An axisymmetric
+/// limit of targets that can fail is the first choice where no other one has an expected error.
 pub(super) fn recommended(
+    models: &[&dyn Model],
+    scenario: &Scenario,
+    results: &[ModelLimit],
+    axisymmetric: Option<&AxisymmetricLimit>,
+) -> (Vec<Choice>, Option<String>) {
+    let (choices, note) = of_models(models, scenario, results);
+    let is_judged = |choice: &Choice| {
+        let mut results = results.iter().filter(|entry| entry.model == choice.model);
+        results.any(|entry| entry.expected_error.is_some())
+    };
+    let found = axisymmetric.is_some_and(|limit| limit.ballistic_limit_m_s.is_some());
+    // Without failure a plate only stretches and thins: the limit is too high.
+    if !found || !axi::layers_that_cannot_fail(scenario).is_empty() || choices.iter().any(is_judged)
+    {
+        return (choices, note);
+    }
+    let because = "it solves the whole impact, its mesh error is known, and no first choice has been compared with enough published limits of this kind";
+    let choice = Choice {
+        model: MODEL,
+        because,
+    };
+    (vec![choice], None)
+}
+
+/// The first choices among the models without the axisymmetric limit.
+fn of_models(
     models: &[&dyn Model],
     scenario: &Scenario,
     results: &[ModelLimit],

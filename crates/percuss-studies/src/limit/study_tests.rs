@@ -181,9 +181,8 @@ fn the_first_choice_at_its_own_limit_is_recommended() {
     assert!(note.contains("no model is the first choice"), "{note}");
 }
 
-/// The second and third mesh are searched about the limit of the one before, and progress counts on.
-#[test]
-fn the_axisymmetric_limit_has_three_meshes_and_an_uncertainty() {
+/// A disc, a thin plate and a search by `axi` that take a second.
+fn disc(budget: Option<f64>) -> (Scenario, Search) {
     let disc = scenario(
         r#"
         projectile = { material = "tool-steel-hrc53", length = "10 mm", diameter = "20 mm", impact_velocity = "300 m/s" }
@@ -193,9 +192,101 @@ fn the_axisymmetric_limit_has_three_meshes_and_an_uncertainty() {
     );
     let search = Search {
         tolerance: Tolerance::Relative(0.03),
-        reference: Some(ReferenceMeshes::Standard),
+        axisymmetric: Some(Request {
+            budget,
+            ..Request::default()
+        }),
         ..search(100.0, 900.0, 0)
     };
+    (disc, search)
+}
+
+/// The axisymmetric limit is the choice where no first choice has an expected error; a plate without data of failure leaves it out.
+#[test]
+fn the_axisymmetric_limit_is_recommended_where_no_other_one_is_judged() {
+    let (steel, search) = disc(None);
+    let of =
+        |case: &Scenario| limits(&[&Plugging], case, &search, &mut Observer::default()).unwrap();
+    let chosen = |found: &Limits| Vec::from_iter(found.recommended.iter().map(|c| c.model));
+    let found = of(&steel);
+    assert_eq!((chosen(&found), found.note), (vec!["axi"], None));
+    let light = |failure_strain: Option<f64>| {
+        let mut light = scenario(
+            r#"
+            projectile = { material = "tool-steel-hrc53", length = "10 mm", diameter = "20 mm", impact_velocity = "300 m/s" }
+            target = { material = "aluminium-2024-t351", thickness = "5 mm" }
+            axi = { target_radius = "30 mm" }
+            "#,
+        );
+        light.options.axi.failure_strain = failure_strain;
+        light
+    };
+    for case in [light(None), light(Some(1.0))] {
+        let found = of(&case);
+        assert!(
+            found
+                .axisymmetric
+                .as_ref()
+                .unwrap()
+                .ballistic_limit_m_s
+                .is_some()
+        );
+        assert!(found.results[0].expected_error.is_some());
+        assert_eq!(chosen(&found), ["plugging"]);
+    }
+}
+
+/// Beyond the budget there is the cost and the remedy, and the other models have their limits.
+#[test]
+fn an_axisymmetric_limit_beyond_its_budget_is_left_out_with_the_reason() {
+    let (steel, search) = disc(Some(0.01));
+    let found = limits(&[&Plugging], &steel, &search, &mut Observer::default()).unwrap();
+    let left_out = found.axisymmetric.unwrap();
+    assert_eq!(
+        (left_out.ballistic_limit_m_s, left_out.meshes.len()),
+        (None, 0)
+    );
+    let reason = left_out.reason.unwrap();
+    assert!(
+        reason.contains("s of processor time") && reason.contains("--reference standard"),
+        "{reason}"
+    );
+    assert_eq!(found.results[0].outcome, LimitOutcome::Found);
+    assert_eq!(found.recommended[0].model, "plugging");
+}
+
+/// The coarsest mesh is searched about the limits of the other models, and everywhere where it has none there.
+#[test]
+fn limits_of_other_models_narrow_the_first_search() {
+    let (steel, search) = disc(None);
+    let first = |others: Option<LimitRange>| {
+        let request = search.axisymmetric.unwrap();
+        let free = with_free_rear_face(&steel).unwrap();
+        let found =
+            axisymmetric::on_meshes(&free, &request, &search, others, &mut Observer::default());
+        found.unwrap().meshes[0]
+    };
+    let others = |lowest_m_s: f64, highest_m_s: f64| {
+        Some(LimitRange {
+            lowest_m_s,
+            highest_m_s,
+            models: 2,
+        })
+    };
+    let everywhere = first(None);
+    let limit = everywhere.ballistic_limit_m_s.unwrap();
+    let near = first(others(0.8 * limit, 1.1 * limit));
+    assert!(near.runs < everywhere.runs, "{near:?} {everywhere:?}");
+    assert!((near.ballistic_limit_m_s.unwrap() / limit - 1.0).abs() < 0.06);
+    let far = first(others(0.2 * limit, 0.3 * limit));
+    assert_eq!(far.bracket, everywhere.bracket);
+    assert!(far.runs > everywhere.runs);
+}
+
+/// The second and third mesh are searched about the limit of the one before, and progress counts on.
+#[test]
+fn the_axisymmetric_limit_has_three_meshes_and_an_uncertainty() {
+    let (disc, search) = disc(None);
     let mut last = Progress {
         finished: 0,
         total: 0,
@@ -216,7 +307,6 @@ fn the_axisymmetric_limit_has_three_meshes_and_an_uncertainty() {
     assert!(rises && (last.fraction - 1.0).abs() < 1e-9);
     let cells: Vec<u32> = limit.meshes.iter().map(|m| m.cells_per_radius).collect();
     assert_eq!(cells, [3, 4, 6]);
-    assert!(limit.meshes[0].runs > limit.meshes[2].runs);
     let runs: usize = limit.meshes.iter().map(|mesh| mesh.runs).sum();
     assert_eq!(last.finished, runs + found.results[0].runs);
     for mesh in &limit.meshes {

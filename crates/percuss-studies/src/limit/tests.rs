@@ -26,7 +26,7 @@ pub(super) fn scenario(text: &str) -> Scenario {
 
 pub(super) fn search(from: f64, to: f64, points: usize) -> Search {
     Search {
-        reference: None,
+        axisymmetric: None,
         range: Range { from, to },
         points,
         tolerance: Tolerance::Absolute(0.5),

@@ -13,6 +13,7 @@ use crate::{
     axisymmetric::AxisymmetricAnswer,
     chain::resistance_model_in_use,
     fragments::FragmentRecord,
+    measured_curves::compare_curves,
     model_error::expected_error,
     options::TargetResistanceModel,
     outcome::{Band, BandQuantity, Outcome, RunResult},
@@ -71,6 +72,7 @@ impl ResultRecord {
             expected_error: expected_error(scenario, regime, result),
             band: result.band.clone(),
             fragments: result.fragments.iter().map(FragmentRecord::from).collect(),
+            measured_curves: compare_curves(scenario, result),
             details: result.details.clone(),
             warnings: result.warnings.clone(),
             ..Self::of_numbers(scenario, Some(result))

@@ -3,6 +3,7 @@
 use super::ResultRecord;
 use crate::{
     fragments::FragmentRecord,
+    measured_curves::CurveComparison,
     model_error::ModelErrorEstimate,
     outcome::{Band, Detail, Outcome, RunResult, Termination},
     scenario::Scenario,
@@ -210,6 +211,7 @@ field_types! {
     Option<ModelErrorEstimate> => OptionalTable;
     Vec<Detail> => Tables;
     Vec<FragmentRecord> => Tables;
+    Vec<CurveComparison> => Tables;
 }
 
 /// Type of a number in [`ResultRecord`].

@@ -10,6 +10,7 @@ use super::number::{
 };
 use crate::{
     fragments::FragmentRecord,
+    measured_curves::CurveComparison,
     model_error::ModelErrorEstimate,
     outcome::{Band, Detail as ModelDetail, Outcome, RunResult, Termination},
     scenario::Scenario,
@@ -239,6 +240,8 @@ result_record! {
 
         /// Fragments that fly free at the end, from the projectile's tail to the target's rear face; of `particles` from the largest to the smallest.
         fragments: Vec<FragmentRecord>;
+        /// Differences from the measured curves of the case; empty at another impact velocity.
+        measured_curves: Vec<CurveComparison>;
         /// Numbers that this model alone has.
         details: Vec<ModelDetail>;
         /// Warnings: Limitations of the numbers.

@@ -44,9 +44,12 @@ pub(crate) use crate::inputs::{Copula, Distribution, Values, score, values};
 
 use crate::{
     Error,
-    case::{Document, Template},
-    model::Model,
+    case::{Document, ScenarioChange, Template},
+    model::{self, Estimate, Model},
 };
+
+/// Runs from which the cost of a sweep is estimated.
+const ESTIMATED_RUNS: u64 = 16;
 
 /// A sweep that was read and checked.
 pub struct Sweep {
@@ -85,6 +88,15 @@ impl Sweep {
         load::read(file, |_| Ok(case.clone()))
     }
 
+    /// The same with a change of the case of every run.
+    #[must_use]
+    pub fn with_change(self, change: ScenarioChange) -> Self {
+        Self {
+            template: self.template.with_change(change),
+            ..self
+        }
+    }
+
     /// Name of the case that is varied.
     pub fn case(&self) -> &str {
         self.template.name()
@@ -114,6 +126,16 @@ impl Sweep {
     /// What the results rest on besides the program: sweep file, case and its material files, without comments.
     pub fn content(&self) -> [&str; 2] {
         [&self.content, &self.template.content]
+    }
+
+    /// Estimated cost of so many of its runs, from a few that are spread over all.
+    pub fn estimate(&self, runs: u64) -> Estimate {
+        let few = self.spread(runs.min(ESTIMATED_RUNS));
+        let part = runs as f64 / few.len().max(1) as f64;
+        let scenarios = few.iter().filter_map(|i| self.run(*i).scenario.ok());
+        let applying = scenarios.filter(|s| model::applicability(self.model, s).is_ok());
+        let estimates = applying.map(|scenario| self.model.estimate(&scenario));
+        estimates.sum::<Estimate>().times(part)
     }
 
     /// A run, counted from 0.

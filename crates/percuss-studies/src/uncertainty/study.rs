@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::{
     Error, Scenario,
-    case::{self, Case, Document, Template},
+    case::{self, Case, Document, ScenarioChange, Template},
     check::{Check, Diagnostic},
     summary::ResultNumber,
     sweep::{Axis, Copula, MAX_DIMENSIONS, check_values},
@@ -86,6 +86,16 @@ impl Study {
             copula,
             template,
         })
+    }
+
+    /// The same with a change of the case of every run.
+    #[must_use]
+    pub fn with_change(self, change: ScenarioChange) -> Self {
+        Self {
+            scenario: (change.change)(self.scenario),
+            template: self.template.with_change(change),
+            ..self
+        }
     }
 
     /// Whether its parameters depend on each other.

@@ -5,12 +5,10 @@ use std::path::Path;
 use super::Test;
 use crate::{
     check::limits::IMPACT_VELOCITY,
+    csv_table::{CsvRow, CsvTable, header},
     document::read_text,
     error::{Error, InputError},
-    experiments::{
-        TestFile, header,
-        row::{CsvRow, CsvTable},
-    },
+    experiments::TestFile,
     units::Velocity,
 };
 

@@ -1,5 +1,6 @@
 //! `percuss compare`: all models on one case.
 
+mod curves;
 mod head;
 mod messages;
 mod missing;
@@ -15,14 +16,15 @@ use std::path::PathBuf;
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario,
-    axisymmetric::{BUDGET, ReferenceMeshes, Request},
+    axisymmetric::{ReferenceMeshes, Request},
     case,
     compare::{self, Comparison, Observer},
-    model::{self, CostClass, MODELS},
+    model::{self, CostClass, Estimate, MODELS},
+    units::UnitSystem,
 };
 
 use crate::{
-    by_models,
+    by_models, cost,
     failure::Failure,
     file_list::FileList,
     output,
@@ -31,6 +33,7 @@ use crate::{
     run_folder::RunFolder,
     speeds::Speeds,
     terminal,
+    unit_system::unit_system,
 };
 
 const LONG_ABOUT: &str = "\
@@ -40,8 +43,8 @@ of the case, and the reason where a model does not apply. A model that fails
 does not stop the others.
 
 The axisymmetric model `axi` runs on 3, 4 and 6 cells per radius: its number is
-the limit of the meshes, its range the discretisation uncertainty. It is left out
-with --fast, where it costs more than 60 s of processor time, and at several
+the limit of the meshes, its range the discretisation uncertainty. It is left
+out with --fast, where it costs more than 60 s of processor time, and at several
 velocities unless --reference asks for it.
 
 With --velocity the case is run at other impact velocities:
@@ -61,7 +64,7 @@ const AFTER_HELP: &str = "\
 Examples:
   percuss compare my-case/scenario.toml
   percuss compare my-case/scenario.toml --velocity 200..1500:27 --out results
-  percuss compare my-case/scenario.toml --velocity 200..1500:14 --reference standard
+  percuss compare my-case/scenario.toml --velocity 200,400,600 --reference fine
   percuss compare my-case/scenario.toml --model chain --json
 
 Exit codes: 0 ok, 2 bad input or no model gives a result, 4 a file could not be
@@ -95,6 +98,9 @@ pub struct Compare {
     /// Write numbers and figure to a folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Unit system of compare.csv and compare.parquet [default: mm, m/s]
+    #[arg(long, value_name = "SYSTEM", requires = "out", value_parser = unit_system())]
+    units: Option<UnitSystem>,
     /// No table and no progress: lines of NAME=VALUE pairs
     #[arg(long, short)]
     quiet: bool,
@@ -110,7 +116,11 @@ struct ComparisonOutput {
 impl Compare {
     pub fn run(&self) -> Result<(), Failure> {
         let mut progress = Progress::new(!self.quiet);
-        let found = self.find(&VirtualFiles::default(), &mut progress.callback());
+        let found = self.find(
+            &VirtualFiles::default(),
+            &mut progress.callback(),
+            &|cost| cost::tell(cost, self.quiet),
+        );
         progress.finish();
         let found = found?;
         self.print(&found)?;
@@ -126,7 +136,7 @@ impl Compare {
         virtual_files: &VirtualFiles,
         on_progress: ProgressCallback<'_>,
     ) -> Result<Response, Failure> {
-        let found = self.find(virtual_files, on_progress)?;
+        let found = self.find(virtual_files, on_progress, &|_| ())?;
         Response::json_of(&found.comparison, found.files)
     }
 
@@ -134,14 +144,18 @@ impl Compare {
         &self,
         virtual_files: &VirtualFiles,
         on_progress: ProgressCallback<'_>,
+        tell: &dyn Fn(Estimate),
     ) -> Result<ComparisonOutput, Failure> {
         let document = virtual_files.read(&self.case)?;
         let scenario = case::scenario(&document)?;
         let speeds = self.speeds(&scenario)?;
         let folder = RunFolder::wanted(self.out.as_deref(), Some(&document))?;
+        let models = by_models::named(&self.model);
+        let of_models = models.iter().map(|model| cost::of_run(*model, &scenario));
+        tell(of_models.sum::<Estimate>().times(speeds.len() as f64));
         let comparison = self.compute(&scenario, &speeds, on_progress)?;
         let files = match folder {
-            Some(folder) => folder.write_comparison(&scenario, &comparison)?,
+            Some(folder) => folder.write_comparison(&scenario, &comparison, self.units)?,
             None => Vec::new(),
         };
         Ok(ComparisonOutput {
@@ -179,15 +193,9 @@ impl Compare {
     fn axisymmetric(&self, speeds: &[f64]) -> Option<Request> {
         let named = self.reference.as_deref().and_then(ReferenceMeshes::named);
         match named {
-            Some(meshes) => Some(Request {
-                meshes,
-                budget: None,
-            }),
+            Some(meshes) => Some(Request::whole(meshes)),
             None if self.fast || !self.model.is_empty() || speeds.len() > 1 => None,
-            None => Some(Request {
-                meshes: ReferenceMeshes::default(),
-                budget: Some(BUDGET),
-            }),
+            None => Some(Request::unasked()),
         }
     }
 
@@ -235,6 +243,7 @@ impl Compare {
                 1 => single::text(comparison),
                 _ => sweep::text(comparison),
             };
+            text += &curves::text(comparison);
             text += &quantities::elsewhere(comparison);
             text += &warnings::text(comparison);
             text += &missing::text(comparison);

@@ -9,16 +9,16 @@ use std::path::{Path, PathBuf};
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario,
-    axisymmetric::ReferenceMeshes,
+    axisymmetric::{ReferenceMeshes, Request},
     case,
     limit::{self, LimitOutcome, Limits, Observer, Range, Search, Tolerance},
-    model::MODELS,
+    model::{Estimate, MODELS},
     v50::{self, Test, V50},
 };
 use serde::Serialize;
 
 use crate::{
-    by_models,
+    by_models, cost,
     failure::Failure,
     file_list::FileList,
     output,
@@ -28,6 +28,9 @@ use crate::{
     shot_data::note_unread,
 };
 
+/// Runs of a search for a limit, for the estimate of its cost.
+const RUNS: f64 = 20.0;
+
 const LONG_ABOUT: &str = "\
 Find the ballistic limit of a case: the impact velocity above which the target
 is perforated. Every model that predicts perforation gets the same search: 17
@@ -35,26 +38,27 @@ velocities across a range, then bisection between the highest velocity with a
 partial and the lowest with a complete penetration, down to the tolerance. Above
 the limit the residual velocities are computed, and the curve of Lambert and
 Jonas, v_r = a (v^p - v_bl^p)^(1/p), is fitted to them. The output gives the
-reason where a model does not apply or has no limit in the range. A model that
-may take minutes, such as `axi`, runs only when --model names it.
+reason where a model does not apply or has no limit in the range.
 
-With --reference standard the axisymmetric model `axi` is searched with on 3, 4
-and 6 cells per radius, with --reference fine on 6, 8 and 12. Its limit is
-extrapolated to fine meshes and printed first, with its discretisation
-uncertainty.
+The axisymmetric model `axi` is searched with on 3, 4 and 6 cells per radius,
+with --reference fine on 6, 8 and 12: its limit is extrapolated to fine meshes,
+with its discretisation uncertainty. Its brackets are half a per cent wide at
+least, and it is left out with --fast or --model, and where it is expected to
+take more than 60 s of processor time, unless --reference is given.
 
 The rear face of a plate is free unless the case gives `target.back_face`;
-behind a fixed one perforation is impossible. The recommended model is marked
-with ★, and the errors of the models on published limits of the same kind are
-listed below. `recht_ipson` and `lambert_jonas` need a limit as input: only
-their residual velocities are listed.
+behind a fixed one perforation is impossible. The first line has the limit to
+use: that of the recommended model, marked with ★, if its errors on published
+limits of the same kind are known, otherwise the axisymmetric one. `recht_ipson`
+and `lambert_jonas` need a limit as input: only their residual velocities are
+listed.
 
 With --shots FILE.csv V50, the velocity at which the probability of perforation
 is 50 %, is estimated from test results: by maximum likelihood (probit and
 logit) with the 95 % likelihood-ratio interval, and as the mean of equal numbers
 of the highest partial and the lowest complete penetrations (extremes). The file
-has one row per test and the columns impact_velocity_m_s and perforated (yes or no).
-The case is then optional.
+has one row per test and the columns impact_velocity_m_s and perforated (yes or
+no). The case is then optional.
 
 With --out DIR a copy of the case (case-as-run.toml), limit.json, the tables
 limit.csv (one row per model) and curve.csv (one row per velocity), and the
@@ -66,6 +70,7 @@ Examples:
   percuss limit my-case/scenario.toml
   percuss limit my-case/scenario.toml --velocity 100..400 --tolerance \"0.2 %\"
   percuss limit my-case/scenario.toml --model plugging --out results
+  percuss limit my-case/scenario.toml --fast
   percuss limit my-case/scenario.toml --velocity 100..400 --reference fine
   percuss limit --shots tests.csv
 
@@ -79,7 +84,7 @@ pub struct Limit {
     /// Case file; `percuss new` writes one to start from
     #[arg(value_name = "CASE.toml", required_unless_present = "shots")]
     case: Option<PathBuf>,
-    /// Search with this model only; may be given several times. `axi` runs only when it is named
+    /// Search with this model only; may be given several times. `axi` runs on the mesh of the case when it is named
     #[arg(long, value_name = "NAME", requires = "case")]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: Vec<String>,
@@ -96,10 +101,18 @@ pub struct Limit {
     #[arg(long, value_name = "COUNT", default_value = "12")]
     #[arg(value_parser = values::points, allow_hyphen_values = true)]
     points: u16,
-    /// Search with `axi` on these meshes too, and give the limit of fine meshes with its uncertainty
-    #[arg(long, value_name = "MESHES", requires = "case")]
+    /// Meshes of the axisymmetric limit, whatever they cost [default: standard, within 60 s of processor time]
+    #[arg(
+        long,
+        value_name = "MESHES",
+        requires = "case",
+        conflicts_with = "fast"
+    )]
     #[arg(value_parser = PossibleValuesParser::new(ReferenceMeshes::ALL.map(ReferenceMeshes::name)))]
     reference: Option<String>,
+    /// Leave out the axisymmetric limit
+    #[arg(long)]
+    fast: bool,
     /// CSV file of tests with partial or complete penetration
     #[arg(long, value_name = "FILE.csv")]
     shots: Option<PathBuf>,
@@ -147,7 +160,11 @@ impl LimitOutput {
 impl Limit {
     pub fn run(&self) -> Result<(), Failure> {
         let mut progress = Progress::new(!self.quiet);
-        let found = self.find(&VirtualFiles::default(), &mut progress.callback());
+        let found = self.find(
+            &VirtualFiles::default(),
+            &mut progress.callback(),
+            &|cost| cost::tell(cost, self.quiet),
+        );
         progress.finish();
         let found = found?;
         self.print(&found)?;
@@ -165,7 +182,7 @@ impl Limit {
         virtual_files: &VirtualFiles,
         on_progress: ProgressCallback<'_>,
     ) -> Result<Response, Failure> {
-        let found = self.find(virtual_files, on_progress)?;
+        let found = self.find(virtual_files, on_progress, &|_| ())?;
         Response::json_of(&found.record(), found.files.clone())
     }
 
@@ -173,6 +190,7 @@ impl Limit {
         &self,
         virtual_files: &VirtualFiles,
         on_progress: ProgressCallback<'_>,
+        tell: &dyn Fn(Estimate),
     ) -> Result<LimitOutput, Failure> {
         let document = self.case.as_ref().map(|path| virtual_files.read(path));
         let document = document.transpose()?;
@@ -189,6 +207,9 @@ impl Limit {
         });
         let case = match scenario {
             Some(scenario) => {
+                let models = by_models::named(&self.model);
+                let of_models = models.iter().map(|model| cost::of_run(*model, &scenario));
+                tell(of_models.sum::<Estimate>().times(RUNS));
                 let limits = self.search(&scenario, on_progress)?;
                 Some((scenario, limits))
             }
@@ -215,7 +236,7 @@ impl Limit {
             range: self.velocity,
             tolerance: self.tolerance,
             points: usize::from(self.points),
-            reference: self.reference.as_deref().and_then(ReferenceMeshes::named),
+            axisymmetric: self.axisymmetric(),
         };
         let mut report = |now: limit::Progress| {
             let words = format!("{} runs", now.finished);
@@ -225,6 +246,16 @@ impl Limit {
             progress: Some(&mut report),
         };
         Ok(limit::limits(&models, scenario, &search, &mut watch)?)
+    }
+
+    /// Axisymmetric limit that is wanted.
+    fn axisymmetric(&self) -> Option<Request> {
+        let named = self.reference.as_deref().and_then(ReferenceMeshes::named);
+        match named {
+            Some(meshes) => Some(Request::whole(meshes)),
+            None if self.fast || !self.model.is_empty() => None,
+            None => Some(Request::unasked()),
+        }
     }
 
     fn write(&self, mut folder: RunFolder, found: &LimitOutput) -> Result<Vec<PathBuf>, Failure> {

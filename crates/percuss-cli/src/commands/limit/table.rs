@@ -1,13 +1,13 @@
 //! Terminal output of `percuss limit`: ballistic limits and V50.
 
 use percuss::{
-    Scenario,
+    Scenario, axisymmetric,
     limit::{LambertJonasFit, LimitOutcome, Limits, ModelLimit, RearFace, Tolerance},
     units::significant,
     v50::{Estimate, Method, Pattern, V50},
 };
 use percuss_report::{
-    result_rows::with_uncertainty,
+    axisymmetric_limit, limit_headline,
     table::{Table, number},
 };
 
@@ -35,7 +35,10 @@ pub fn head(scenario: &Scenario, limits: &Limits, tolerance: Tolerance) -> Strin
 /// Table of limits, warnings, and models without a limit.
 pub fn text(limits: &Limits) -> String {
     let found: Vec<&ModelLimit> = limits.results.iter().filter(|l| is_found(l)).collect();
-    let mut text = axisymmetric(limits);
+    let mut text = limit_headline(limits).map_or_else(String::new, |line| {
+        format!("{}\n\n", bold(wrap(&line, width(), 0)))
+    });
+    text += &axisymmetric(limits);
     if found.is_empty() {
         text += "no model finds a limit in this range\n\n";
     } else {
@@ -67,22 +70,10 @@ fn axisymmetric(limits: &Limits) -> String {
     let Some(limit) = &limits.axisymmetric else {
         return String::new();
     };
-    let mut text = match limit.ballistic_limit_m_s {
-        Some(value) => {
-            let uncertainty = limit.uncertainty_m_s.unwrap_or(0.0);
-            let shown = with_uncertainty(value, uncertainty, "m/s");
-            let beside = limits.measured().map_or_else(String::new, |(measured, _)| {
-                format!(
-                    ", {:+.1} % from the measured {} m/s",
-                    100.0 * (value / measured - 1.0),
-                    significant(measured, 4)
-                )
-            });
-            format!(
-                "{}{beside}\n",
-                bold(format!("Axisymmetric ballistic limit {shown}"))
-            )
-        }
+    let mut text = match axisymmetric_limit(limits) {
+        // The first line has it.
+        Some(_) if limits.is_recommended(axisymmetric::MODEL) => String::new(),
+        Some(shown) => paragraph(&format!("axisymmetric limit {shown}")),
         None => paragraph(&format!(
             "no axisymmetric ballistic limit: {}",
             limit.reason.as_deref().unwrap_or("no reason given")

@@ -1,4 +1,4 @@
-//! `percuss materials export`: records as TOML or as cards of a deck.
+//! `percuss materials export`: records as TOML, JSON, a table, or cards of a deck.
 
 use std::path::PathBuf;
 
@@ -7,16 +7,21 @@ use percuss::{
     case::materials_toml,
     lsdyna::{self, UnitSystem},
     material::{Library, Material, MaterialEntry, MaterialTable},
+    material_tables,
 };
 use serde::Serialize;
 
-use super::{show, unit_system, write_file};
-use crate::{failure::Failure, file_list::FileList, output, response::Response};
+use super::{show, write_file};
+use crate::{
+    failure::Failure, file_list::FileList, output, response::Response, unit_system::unit_system,
+};
 
 const LONG_ABOUT: &str = "\
 Print records of the library as text: as TOML, to start a record of your own
-from and for the `material_files` of a case, or as cards of an LS-DYNA deck,
-*MAT_JOHNSON_COOK with *EOS_GRUNEISEN in a unit system.
+from and for the `material_files` of a case; as JSON or as a table of
+comma-separated values, for other programs; or as cards of an LS-DYNA deck,
+*MAT_JOHNSON_COOK with *EOS_GRUNEISEN in a unit system. `percuss materials
+import` reads all of them but TOML.
 
 A card has fields of ten columns, which round some numbers to four digits. A
 record with another strength law than Johnson-Cook has no card.";
@@ -24,12 +29,13 @@ record with another strength law than Johnson-Cook has no card.";
 const AFTER_HELP: &str = "\
 Examples:
   percuss materials export 4340 > my-steel.toml
-  percuss materials export rha 4340 --format ls-dyna --units mm-kg-ms --out steels.k
+  percuss materials export rha 4340 --format csv --out steels.csv
+  percuss materials export rha 4340 --format ls-dyna --units mm-kg-ms --out s.k
 
 Exit codes: 0 ok, 2 bad input or no such material, 4 a file could not be read or
 written";
 
-/// Print records as TOML or as cards of an LS-DYNA deck
+/// Print records as TOML, JSON, a table, or cards of an LS-DYNA deck
 #[derive(Debug, Args)]
 #[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
 pub struct Export {
@@ -51,6 +57,10 @@ pub struct Export {
 enum Format {
     /// Records as in the files of the library
     Toml,
+    /// An object with a record for each id
+    Json,
+    /// A table with a row for each material, for spreadsheets
+    Csv,
     /// Cards of a deck
     LsDyna,
 }
@@ -81,16 +91,22 @@ impl Export {
     fn text(&self, library: &Library) -> Result<String, Failure> {
         let find = |name: &String| show::find(library, name);
         let entries: Vec<&MaterialEntry> = self.names.iter().map(find).collect::<Result<_, _>>()?;
+        let records = || -> MaterialTable {
+            let entries = entries.iter();
+            let records = entries.map(|entry| (entry.id.clone(), Material::clone(&entry.material)));
+            records.collect()
+        };
+        let unwritable = |reason: String| Failure::Material {
+            message: format!("the records cannot be written: {reason}"),
+            help: String::new(),
+        };
         match (self.format, self.units) {
-            (Format::Toml, None) => {
-                let records = entries
-                    .iter()
-                    .map(|entry| (entry.id.clone(), Material::clone(&entry.material)));
-                Ok(materials_toml(&MaterialTable::from_iter(records)))
-            }
-            (Format::Toml, Some(_)) => Err(Failure::Usage {
-                message: "`--units` has no effect with `--format toml`".to_owned(),
-                help: "every number of a TOML record carries its unit: remove `--units`".to_owned(),
+            (Format::Toml, None) => Ok(materials_toml(&records())),
+            (Format::Json, None) => material_tables::json(&records()).map_err(unwritable),
+            (Format::Csv, None) => material_tables::csv(&records()).map_err(unwritable),
+            (Format::Toml | Format::Json | Format::Csv, Some(_)) => Err(Failure::Usage {
+                message: "`--units` has an effect with `--format ls-dyna` only".to_owned(),
+                help: "every number of other records carries its unit: remove `--units`".to_owned(),
             }),
             (Format::LsDyna, Some(units)) => deck(&entries, units),
             (Format::LsDyna, None) => Err(Failure::Usage {

@@ -8,14 +8,11 @@ mod show;
 
 use std::{fs, io, path::PathBuf};
 
-use clap::{
-    Args, Subcommand,
-    builder::{PossibleValuesParser, TypedValueParser},
-};
+use clap::{Args, Subcommand, builder::PossibleValuesParser};
 use percuss::{
     case,
-    lsdyna::UnitSystem,
     material::{Filter, Library, Material, MaterialEntry, MaterialGroup},
+    units::shorten,
 };
 use serde::Serialize;
 
@@ -151,11 +148,12 @@ impl Materials {
     /// Why nothing is listed.
     fn nothing(&self, library: &Library, words: &str) -> Failure {
         let narrowed = self.group.is_some() || self.family.is_some() || self.hardness.is_some();
+        let asked = shorten(words);
         let message = match (words.trim().is_empty(), narrowed) {
             (true, _) => "no material fits --group, --family and --hardness".to_owned(),
-            (false, true) => format!("no material that the options leave has `{words}`"),
+            (false, true) => format!("no material that the options leave has `{asked}`"),
             (false, false) => format!(
-                "no material has `{words}` in its id, family, group, name, aliases or state"
+                "no material has `{asked}` in its id, family, group, name, aliases or state"
             ),
         };
         let near = match (narrowed, &self.family) {
@@ -179,12 +177,6 @@ impl Materials {
         }
         Ok(library)
     }
-}
-
-/// A unit system of a deck, by its name.
-fn unit_system() -> impl TypedValueParser<Value = UnitSystem> {
-    let names = PossibleValuesParser::new(UnitSystem::NAMES);
-    names.try_map(|name| UnitSystem::named(&name).ok_or("it is no unit system"))
 }
 
 /// Writes a text to a file, if there is one; returns it.

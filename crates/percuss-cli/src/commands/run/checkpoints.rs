@@ -13,6 +13,7 @@ use percuss::{
     input_file::{self, MAX_OWN_BYTES},
     model::Checkpoints,
 };
+use percuss_report::replace_file::replace_file_durably;
 
 use crate::failure::Failure;
 
@@ -44,13 +45,23 @@ pub fn load(folder: &Path) -> Result<Option<Vec<u8>>, Failure> {
 
 /// Removes the checkpoint of a completed run.
 pub fn remove(folder: &Path) {
-    // A leftover checkpoint is not a failure of the run.
+    // What is left over is not a failure of the run.
     let _ = fs::remove_file(file(folder));
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        if is_unfinished(&entry.file_name().to_string_lossy()) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Whether a file is a checkpoint that a killed run was writing.
+fn is_unfinished(name: &str) -> bool {
+    name.starts_with(&format!(".{NAME}.")) && name.ends_with(".tmp")
 }
 
 /// Writer of checkpoints: at intervals and when the run stops.
 pub struct CheckpointWriter<'a> {
-    path: PathBuf,
+    folder: PathBuf,
     interval: Duration,
     last: Instant,
     stop: &'a AtomicBool,
@@ -62,7 +73,7 @@ impl<'a> CheckpointWriter<'a> {
     /// Creates the writer; the run leaves a checkpoint and stops when `stop` becomes true.
     pub fn new(folder: &Path, interval: Duration, stop: &'a AtomicBool) -> Self {
         Self {
-            path: file(folder),
+            folder: folder.to_owned(),
             interval,
             last: Instant::now(),
             stop,
@@ -81,10 +92,15 @@ impl Checkpoints for CheckpointWriter<'_> {
         self.stopped() || self.last.elapsed() >= self.interval
     }
 
+    fn is_stopped(&self) -> bool {
+        self.stopped()
+    }
+
     fn keep(&mut self, bytes: &[u8]) -> ControlFlow<()> {
         self.last = Instant::now();
-        if let Err(error) = replace(&self.path, bytes) {
-            self.failure = Some(Failure::write(&self.path)(error));
+        let write = |file: &mut File| file.write_all(bytes);
+        if let Err(error) = replace_file_durably(&self.folder, NAME, write) {
+            self.failure = Some(error.into());
             return ControlFlow::Break(());
         }
         if self.stopped() {
@@ -93,15 +109,6 @@ impl Checkpoints for CheckpointWriter<'_> {
             ControlFlow::Continue(())
         }
     }
-}
-
-/// Replaces a file atomically: the old or the new one is complete at any time.
-fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let temporary = path.with_extension("tmp");
-    let mut file = File::create(&temporary)?;
-    file.write_all(bytes)?;
-    file.sync_all()?;
-    fs::rename(&temporary, path)
 }
 
 /// An interval such as `60s`, `5 min` or `1h`.
@@ -152,9 +159,12 @@ mod tests {
         stop.store(true, Ordering::Relaxed);
         assert!(checkpoint_writer.keep(b"three").is_break());
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        let unfinished = folder.path().join(".checkpoint.percuss.7-0.tmp");
+        fs::write(&unfinished, b"killed").unwrap();
         remove(folder.path());
+        assert!(!unfinished.exists());
         assert!(load(folder.path()).unwrap().is_none());
-        checkpoint_writer.path = folder.path().join("none/such");
+        checkpoint_writer.folder = folder.path().join("none");
         assert!(checkpoint_writer.keep(b"four").is_break() && checkpoint_writer.failure.is_some());
     }
 }

@@ -15,12 +15,13 @@ use percuss::{
     model::{DEFAULT_MODEL, MODELS},
     outcome::{RunResult, Termination},
     summary::{CaseResults, ResultRecord},
+    units::UnitSystem,
 };
 use percuss_report::FieldQuantity;
 
 use self::{axisymmetric::Wanted, task::Task};
 use crate::{
-    diagnostic,
+    cost, diagnostic,
     failure::Failure,
     file_list::FileList,
     output,
@@ -28,6 +29,7 @@ use crate::{
     response::{ProgressCallback, Response, ResponseData, VirtualFiles},
     result_table, run_folder,
     run_output::RunOutput,
+    unit_system::unit_system,
     workers,
 };
 
@@ -62,19 +64,23 @@ time histories writes the first two only. The fields of the axisymmetric answer
 at its end are axisymmetric.vtp for ParaView and a picture, axisymmetric.png.
 Files of the same names are replaced, other files are kept.
 
-With --fields the models `chain`, `fdm` and `axi` also write their fields against
-time as a series for ParaView (fields.pvd, which can be opened during the run).
-Ctrl-C, or a termination request of the system, leaves a checkpoint in DIR, from
-which --resume continues with the same numbers.
+With --units the tables in DIR are in another unit system; the names of their
+columns say so. result.json and figures keep their units.
+
+With --fields the models `chain`, `fdm` and `axi` also write their fields
+against time as a series for ParaView (fields.pvd, which can be opened during
+the run). Ctrl-C, or a termination request of the system, leaves a checkpoint in
+DIR, from which --resume continues with the same numbers.
 
 The two-dimensional model `axi` also writes the shapes of crater and projectile
 (CSV and figure) and its fields at the end: field.vtp for ParaView and a picture
 of one of them, field.png. With --animation it writes animation.gif and its
 pictures (frames/).
 
-With --seeds N the model `particles` runs N packings: the seed of the case and the
-next ones. The table and --json (`seeds`) then also have mean, standard deviation
-and range of every result number. Files and the first table are of the first seed.
+With --seeds N the model `particles` runs N packings: the seed of the case and
+the next ones. The table and --json (`seeds`) then also have mean, standard
+deviation and range of every result number. Files and the first table are of the
+first seed.
 
 After one second a progress bar appears, if standard error is a terminal.";
 
@@ -84,6 +90,7 @@ Examples:
   percuss run my-case/scenario.toml --fast
   percuss run my-case/scenario.toml --reference fine
   percuss run my-case/scenario.toml --out results
+  percuss run my-case/scenario.toml --out results --units mm-ms-kN
   percuss run my-case/scenario.toml --json > result.json
   percuss run my-case/scenario.toml --quiet
   percuss run my-case/scenario.toml --out results --fields
@@ -121,6 +128,9 @@ pub struct Run {
     /// Write result, histories and figures to a folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Unit system of the histories, profiles, gauges and fragments in DIR [default: mm, us, m/s, kN, MPa, J]
+    #[arg(long, value_name = "SYSTEM", requires = "out", value_parser = unit_system())]
+    units: Option<UnitSystem>,
     /// No table and no progress: one line of NAME=VALUE pairs
     #[arg(long, short)]
     quiet: bool,
@@ -163,6 +173,7 @@ impl Run {
             false => Arc::default(),
         };
         let mut task = Task::new(self, &VirtualFiles::default(), &stop, &say)?;
+        cost::tell(task.estimate(), self.quiet);
         let mut progress = Progress::new(!self.quiet);
         let run_output = task.compute(&mut progress.callback());
         progress.finish();

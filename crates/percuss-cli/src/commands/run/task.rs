@@ -11,7 +11,7 @@ use percuss::{
     Error, Scenario, case,
     checkpoint::Header,
     frames::Frame,
-    model::{self, ChosenModel, Control, Model},
+    model::{self, ChosenModel, Control, Estimate, Model},
     outcome::RunResult,
 };
 use percuss_report::{FieldQuantity, FieldSeries, FinalField};
@@ -22,6 +22,7 @@ use super::{
     seeds,
 };
 use crate::{
+    cost,
     failure::Failure,
     response::{ProgressCallback, VirtualFiles},
     run_folder::RunFolder,
@@ -108,6 +109,12 @@ impl<'a> Task<'a> {
         &self.scenario
     }
 
+    /// Estimated cost of the runs of the model.
+    pub fn estimate(&self) -> Estimate {
+        let runs = f64::from(self.options.seeds.unwrap_or(1));
+        cost::of_run(self.chosen.model, &self.scenario).times(runs)
+    }
+
     /// Keeps the final fields of an axisymmetric answer, where there is a folder for them.
     pub fn axisymmetric_frames(&mut self) -> impl FnMut(&Frame<'_>) + Send {
         let wanted = self.folder.is_some();
@@ -134,7 +141,7 @@ impl<'a> Task<'a> {
             Some(fields) => fields.run(&self.chosen, &self.scenario, &mut report)?,
             None => {
                 let mut control = Control {
-                    record: self.folder.is_some(),
+                    record: self.folder.is_some() || !self.scenario.measured_curves.is_empty(),
                     progress: Some(&mut report),
                     ..Control::default()
                 };
@@ -166,6 +173,7 @@ impl<'a> Task<'a> {
             &run_output.scenario,
             &run_output.result,
             &run_output.results(),
+            self.options.units,
             report,
         )?;
         let has_answer = run_output.axisymmetric.as_ref();

@@ -14,16 +14,19 @@ use clap::{Args, Subcommand};
 use percuss::{
     outcome::Outcome,
     sweep::{self, BatchKernel, SweepRow},
+    units::UnitSystem,
 };
 use percuss_report::sweep::{Manifest, Status, SweepFolder, merge, status};
 use serde::Serialize;
 
 use crate::{
+    cost,
     failure::Failure,
     output,
     progress::Progress,
     response::Response,
     terminal::{self, bold},
+    unit_system::unit_system,
     workers,
 };
 
@@ -99,16 +102,29 @@ enum What {
         #[arg(long)]
         json: bool,
     },
-    /// Join folders that hold all parts of a sweep into one Parquet file
-    Merge {
-        /// Folders of results
-        #[arg(value_name = "DIR", required = true)]
-        folders: Vec<PathBuf>,
-        /// File to write; it is replaced if it exists
-        #[arg(long, value_name = "FILE.parquet")]
-        out: PathBuf,
-    },
+    Merge(Box<Merge>),
     Plot(plot::Plot),
+}
+
+/// Join folders that hold all parts of a sweep into one Parquet file
+#[derive(Debug, Args)]
+struct Merge {
+    /// Folders of results
+    #[arg(value_name = "DIR", required = true)]
+    folders: Vec<PathBuf>,
+    /// File to write; it is replaced if it exists
+    #[arg(long, value_name = "FILE.parquet")]
+    out: PathBuf,
+    /// Unit system of the columns [default: mm, us, m/s, kN, MPa, J]
+    #[arg(long, value_name = "SYSTEM", value_parser = unit_system())]
+    units: Option<UnitSystem>,
+}
+
+impl Merge {
+    /// Writes the file; returns the number of rows.
+    fn write(&self) -> Result<u64, Failure> {
+        Ok(merge(&self.folders, &self.out, self.units)?)
+    }
 }
 
 impl Sweep {
@@ -118,10 +134,10 @@ impl Sweep {
                 true => output::print_json(&StatusRecord::from(status(folder)?)),
                 false => print_status(folder),
             },
-            (Some(What::Merge { folders, out }), ..) => {
-                let rows = merge(folders, out)?;
+            (Some(What::Merge(parts)), ..) => {
+                let rows = parts.write()?;
                 let rows = terminal::counted(rows as usize, "row");
-                output::print(&format!("wrote {rows} to {}\n", out.display()))
+                output::print(&format!("wrote {rows} to {}\n", parts.out.display()))
             }
             (Some(What::Plot(plot)), ..) => plot.run(),
             (None, Some(file), Some(out)) => self.compute(file, out),
@@ -138,9 +154,7 @@ impl Sweep {
             Some(What::Status { folder, .. }) => {
                 Response::json_of(&StatusRecord::from(status(folder)?), Vec::new())
             }
-            Some(What::Merge { folders, out }) => {
-                Response::json_of(&merge(folders, out)?, vec![out.clone()])
-            }
+            Some(What::Merge(parts)) => Response::json_of(&parts.write()?, vec![parts.out.clone()]),
             Some(What::Plot(plot)) => plot.execute(),
             None => Err(Failure::no_response()),
         }
@@ -162,6 +176,7 @@ impl Sweep {
         };
         let total = count(&mut (part - 1..sweep.blocks()).step_by(parts as usize));
         let due = count(&mut missing.iter().copied());
+        cost::tell(sweep.estimate(due), self.quiet);
         let state = Mutex::new(SweepProgress {
             progress: Progress::new(!self.quiet),
             outcomes: BTreeMap::new(),

@@ -25,6 +25,7 @@ use percuss::{
 };
 
 use crate::{
+    cost,
     failure::Failure,
     file_list::FileList,
     output,
@@ -147,6 +148,8 @@ fn speeds(text: &str) -> Result<Speeds, SpeedsError> {
 impl Uncertainty {
     pub fn run(&self) -> Result<(), Failure> {
         let task = self.task(&VirtualFiles::default())?;
+        let of_run = cost::of_run(task.model, &task.study.scenario);
+        cost::tell(of_run.times(task.settings.samples as f64), self.quiet);
         let mut progress = Progress::new(!self.quiet);
         let found = self.find(&task, &workers::stop_on_request(), &mut progress.callback());
         progress.finish();
@@ -190,7 +193,10 @@ impl Uncertainty {
 
     fn task(&self, virtual_files: &VirtualFiles) -> Result<Task, Failure> {
         let document = virtual_files.read(&self.case)?;
-        let study = Study::of(&document)?;
+        let mut study = Study::of(&document)?;
+        if let Some(change) = &virtual_files.change {
+            study = study.with_change(change.clone());
+        }
         let model = model::model(&self.model)?;
         let speeds = match &self.velocity {
             Some(speeds) => speeds.of(&study.scenario)?,

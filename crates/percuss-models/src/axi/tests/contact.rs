@@ -10,6 +10,7 @@ use crate::axi::{
     field::Field,
     law::Law,
 };
+use crate::solver::Control;
 
 const YOUNGS_MODULUS: f64 = 200e9;
 const DENSITY: f64 = 7850.0;
@@ -124,7 +125,7 @@ fn slide(contact: Contact) -> Slide {
     let mut solver = solver(vec![first, second], cell);
     solver.contact = contact;
     // The nodes have moved once without contact of the new kind: nothing has touched yet.
-    solver.start();
+    solver.start(&mut Control::default()).unwrap();
     let mut slide = Slide {
         passed: [0.0; 2],
         heat: 0.0,

@@ -28,7 +28,7 @@ use crate::{
     case::ArtificialViscosity,
     lanes::Lanes,
     material::{FlowState, FlowStress, PreparedStrength},
-    solver::Particle,
+    solver::{Control, Particle},
 };
 
 /// Elastic, then flow at a constant stress; infinite for a material that never flows.
@@ -122,14 +122,15 @@ fn body(law: Law, sections: impl IntoIterator<Item = ([f64; 2], f64)>, motion: M
         particle
     };
     let particles: Vec<Particle> = sections.into_iter().map(particle).collect();
-    Body::new(law, &particles)
+    Body::set_up(law, particles, &mut Control::default()).unwrap()
 }
 
 /// Changes all particles of a body.
 fn change(body: &mut Body, mut change: impl FnMut(&mut Particle)) {
     let mut particles: Vec<Particle> = body.particles().collect();
     particles.iter_mut().for_each(&mut change);
-    body.set_particles(&particles);
+    body.set_particles(&particles, &mut Control::default())
+        .unwrap();
 }
 
 /// Brings one particle, whose velocity gradient is new, to the end of a step of 1 s in cells of 1 m; gives work, plastic work and what
@@ -227,6 +228,6 @@ fn supported_at(
         accumulated: Accumulators::default(),
         deferred: DeferredWork::default(),
     };
-    solver.start();
+    solver.start(&mut Control::default()).unwrap();
     solver
 }

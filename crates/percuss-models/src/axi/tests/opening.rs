@@ -1,7 +1,7 @@
 //! Openings of plates.
 
 use super::{Body, Mesh, Particle, Solid, body, rectangle};
-use crate::axi::opening::is_open;
+use crate::{axi::opening::is_open, solver::Control};
 
 /// A plate of 30 by 12 cells, of which some particles have failed.
 fn plate(failed: impl Fn([f64; 2]) -> bool) -> Body {
@@ -12,7 +12,8 @@ fn plate(failed: impl Fn([f64; 2]) -> bool) -> Body {
     for particle in &mut particles {
         particle.damage = f64::from(u8::from(failed(particle.position)));
     }
-    body.set_particles(&particles);
+    body.set_particles(&particles, &mut Control::default())
+        .unwrap();
     body
 }
 

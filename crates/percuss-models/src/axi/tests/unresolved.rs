@@ -9,7 +9,7 @@ use crate::{
         rates::Rates,
     },
     lanes::Lanes,
-    solver::Particle,
+    solver::{Control, Particle},
 };
 
 const DENSITY: f64 = 2700.0;
@@ -43,7 +43,7 @@ fn a_lone_drop_draws_no_energy_from_its_motion() {
             radial: Axis::graded(cell, 4.0, 0.5),
             axial: Axis::even(cell),
         };
-        grid.start();
+        grid.start(&mut Control::default()).unwrap();
         let initial = grid.accumulated.initial_energy;
         let volume = grid.bodies[0].blocks[0].volume[0];
         let mut most = 0.0_f64;

@@ -159,7 +159,7 @@ impl BatchScheduler<'_, '_> {
             if seat.is_none()
                 && let Some(shot) = waiting.pop()
             {
-                match ColumnRun::new(self.scenarios[shot]) {
+                match ColumnRun::new(self.scenarios[shot], &mut Control::default()) {
                     Ok(run) => {
                         self.bundle.load_lane(lane, &run);
                         *seat = Some(LaneRun { shot, run });
@@ -209,12 +209,25 @@ impl BatchScheduler<'_, '_> {
                 self.bundle.follow(lane, run);
                 return Ok(());
             }
-            // The single run goes on from here.
-            Ok(None) => Some(run.run(&mut control)),
+            Ok(None) => return self.leave(lane),
             Ok(Some(termination)) => run.finish(termination).ok().map(Ok),
             Err(_) => None,
         };
         self.retire(lane, result)
+    }
+
+    /// Empties a lane whose single run goes on from here.
+    fn leave(&mut self, lane: usize) -> Result<(), Stopped> {
+        let Some(LaneRun { shot, run }) = self.lanes[lane].take() else {
+            return Ok(());
+        };
+        self.bundle.clear_lane(lane);
+        let mut watch = listen(self.stop);
+        let mut control = Control {
+            progress: Some(&mut watch),
+            ..Control::default()
+        };
+        self.keep(shot, run.run(&mut control))
     }
 
     /// Empties a lane. What fails there does so in the single run too, which knows what comes next.
@@ -233,9 +246,13 @@ impl BatchScheduler<'_, '_> {
                 progress: Some(&mut watch),
                 ..Control::default()
             };
-            ColumnRun::new(self.scenarios[shot])?.run(&mut control)
+            ColumnRun::new(self.scenarios[shot], &mut control)?.run(&mut control)
         };
         let result = result.unwrap_or_else(alone);
+        self.keep(shot, result)
+    }
+
+    fn keep(&mut self, shot: usize, result: Result<RunResult, Error>) -> Result<(), Stopped> {
         if let Err(Error::Cancelled { .. }) = result {
             return Err(Stopped);
         }

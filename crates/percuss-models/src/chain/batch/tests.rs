@@ -193,7 +193,9 @@ fn shots_side_by_side_end_with_the_bits_of_single_runs() {
     assert!(shots.len() > 3 * LANES && shots.iter().all(accepts));
     let results = together(&shots.iter().collect::<Vec<_>>());
     for (shot, result) in shots.iter().zip(&results) {
-        let alone = ColumnRun::new(shot).unwrap().run(&mut Control::default());
+        let alone = ColumnRun::new(shot, &mut Control::default())
+            .unwrap()
+            .run(&mut Control::default());
         assert_eq!(result, &words(&alone), "{:?}", shot.options.chain);
     }
     let said = |what: &str| results.iter().filter(|words| words.contains(what)).count();
@@ -247,7 +249,8 @@ fn every_strength_law_has_the_bits_of_single_runs() {
     let results = together(&shots.iter().collect::<Vec<_>>());
     let mut penetrated = 0;
     for (shot, result) in shots.iter().zip(&results) {
-        let alone = ColumnRun::new(shot).and_then(|mut run| run.run(&mut Control::default()));
+        let alone = ColumnRun::new(shot, &mut Control::default())
+            .and_then(|run| run.run(&mut Control::default()));
         penetrated += usize::from(alone.is_ok());
         assert_eq!(result, &words(&alone), "{shot:?}");
     }

@@ -52,8 +52,10 @@ use crate::{
     problem::RearFaceCondition,
     scenario::{Plate, TargetBody, modelled_thickness},
     solver::{
+        Control,
         archive::Archive,
         driver::Drive,
+        frames::Fields,
         interface::{Audit, Extremes, Retry, Solver, slowed},
         limits::Limits,
         monitor::{Clock, Probe, RunMonitor},
@@ -200,8 +202,13 @@ impl<'a> Solver<'a> for Cavity<'a> {
         },
     };
 
-    fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
+    fn build(scenario: &'a Scenario, courant: f64, _: &mut Control<'_>) -> Result<Self, Error> {
         Self::new(scenario, courant)
+    }
+
+    fn size(&self) -> usize {
+        let options = &self.scenario.options.chain;
+        options.projectile_elements() + options.target_elements()
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
@@ -265,7 +272,11 @@ impl<'a> Solver<'a> for Cavity<'a> {
     }
 
     fn profile(&self) -> Profile {
-        results::profile(&self.state)
+        results::profile(&self.state).thinned()
+    }
+
+    fn fields(&self) -> Fields<'_> {
+        Fields::Elements(results::profile(&self.state).elements)
     }
 
     fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {

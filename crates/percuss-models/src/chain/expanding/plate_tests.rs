@@ -6,7 +6,7 @@ use crate::{
     case::{self, RearFaceCondition, TargetResistanceModel},
     chain::{cone::Cone, resistance_model_in_use},
     model::{self, Control},
-    outcome::{Outcome, RunResult},
+    outcome::{Outcome, RunResult, Termination},
     summary::ResultRecord,
 };
 
@@ -309,4 +309,19 @@ fn the_range_over_the_erosion_strain_is_given_where_a_rod_erodes() {
         );
     }
     assert!(band.high > 1.5 * band.low);
+}
+
+/// At 800 m/s what is left of the rod creeps forward at 0.006 % of the impact velocity, behind a floor that it never reaches.
+#[test]
+fn a_remnant_that_creeps_forward_without_contact_ends_the_run() {
+    for speed in [700.0, 750.0, 800.0, 850.0, 900.0] {
+        let mesh = "chain = { projectile_elements = 40, target_elements = 80 }";
+        let text = format!(
+            "projectile = {{ material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '{speed} m/s' }}\n\
+             target = {{ material = 'aluminium-2024-t351', thickness = '25 mm', back_face = 'fixed' }}\n{mesh}\n"
+        );
+        let result = run(&case::load_str("case", &text).unwrap());
+        assert_ne!(result.termination, Termination::EndTime, "{speed}");
+        assert!(result.numerics().steps < 10_000, "{speed}");
+    }
 }

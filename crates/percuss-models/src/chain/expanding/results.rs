@@ -72,11 +72,12 @@ impl Window {
         {
             return None;
         }
-        if !touched && momentum <= 0.0 {
-            return Some(Termination::Parted);
-        }
+        // What is left may creep forward behind a floor that it never reaches: that is no motion to wait for.
         let still = (momentum / mass).abs() <= REST_FRACTION * scenario.impact_velocity;
-        (still && touched).then_some(Termination::Quiescent)
+        match touched {
+            false => (momentum <= 0.0 || still).then_some(Termination::Parted),
+            true => still.then_some(Termination::Quiescent),
+        }
     }
 }
 

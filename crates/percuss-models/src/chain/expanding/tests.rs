@@ -21,7 +21,7 @@ fn scenario(projectile: &str, target: &str, length: f64, speed: f64, more: &str)
 }
 
 fn run(scenario: &Scenario) -> RunResult {
-    CavityRun::new(scenario)
+    CavityRun::new(scenario, &mut Control::default())
         .unwrap()
         .run(&mut Control::default())
         .unwrap()

@@ -21,8 +21,10 @@ use crate::{
     },
     outcome::{Outcome, RunResult, Termination},
     solver::{
+        Control,
         archive::Archive,
         driver::Drive,
+        frames::Fields,
         interface::{Audit, BalanceTolerance, Extremes, Retry, Solver},
         limits::Limits,
         monitor::{Clock, Probe, RunMonitor},
@@ -357,8 +359,12 @@ impl<'a> Solver<'a> for Published<'a> {
         retry: Retry::Never,
     };
 
-    fn build(scenario: &'a Scenario, _: f64) -> Result<Self, Error> {
+    fn build(scenario: &'a Scenario, _: f64, _: &mut Control<'_>) -> Result<Self, Error> {
         Self::new(scenario)
+    }
+
+    fn size(&self) -> usize {
+        self.rod_velocity.len() + self.target_velocity.len()
     }
 
     fn courant(_: &Scenario) -> (Option<f64>, f64) {
@@ -432,7 +438,11 @@ impl<'a> Solver<'a> for Published<'a> {
     }
 
     fn profile(&self) -> Profile {
-        self.state_in_springs()
+        self.state_in_springs().thinned()
+    }
+
+    fn fields(&self) -> Fields<'_> {
+        Fields::Elements(self.state_in_springs().elements)
     }
 
     fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {

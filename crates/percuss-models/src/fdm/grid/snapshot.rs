@@ -1,10 +1,7 @@
 //! Snapshot of a grid for histories and results.
 
 use super::{BoundaryCondition, Grid, Law, View};
-use crate::history::{ElementState, Profile, Sample};
-
-/// Most cells in a profile: a finer mesh than a picture can show is thinned out.
-const MOST_CELLS: usize = 400;
+use crate::history::{ElementState, PROFILE_ELEMENTS, Profile, Sample};
 
 impl<L: Law> Grid<L> {
     /// The last segment of the projectile.
@@ -72,7 +69,7 @@ impl<L: Law> Grid<L> {
     }
 
     pub(in crate::fdm) fn profile(&self) -> Profile {
-        let stride = self.cells.len().div_ceil(MOST_CELLS).max(1);
+        let stride = self.cells.len().div_ceil(PROFILE_ELEMENTS).max(1);
         let mut elements = Vec::with_capacity(self.cells.len() / stride + 1);
         for (s, segment) in self.segments.iter().enumerate() {
             for c in segment.cells.clone().step_by(stride) {

@@ -9,7 +9,7 @@ mod run;
 pub use crate::material::{StateEquation, impedance_match};
 pub use column::{Boundary, CellState, Layer, Medium, PlanarGrid, Solid};
 
-pub(super) use run::{PlanarRun, cells, not_applicable};
+pub(super) use run::{PlanarRun, cells, expected, not_applicable};
 
 use crate::options::ArtificialViscosity;
 

@@ -21,6 +21,7 @@ use crate::{
     problem::RearFaceCondition,
     scenario::{TargetBody, modelled_thickness},
     solver::{
+        Control,
         archive::Archive,
         driver::Drive,
         interface::{Audit, Extremes, Solver},
@@ -192,6 +193,40 @@ fn build(scenario: &Scenario) -> Option<(Grid<PlanarLaw>, f64, InterfaceForce)> 
     ))
 }
 
+/// Limits of a run whose waves take a time through all of it [s].
+fn limits(scenario: &Scenario, passage: f64) -> Limits {
+    let options = &scenario.options.fdm;
+    let max_steps = options.max_steps.unwrap_or(MAX_STEPS);
+    let mut limits = Limits::new(scenario, options.end_time, max_steps);
+    if options.end_time.is_none() {
+        limits.end_time = PASSAGES * passage;
+    }
+    limits
+}
+
+/// Time step [s] and limits of a run before it starts.
+pub(in crate::fdm) fn expected(scenario: &Scenario) -> (f64, Limits) {
+    let rod = &scenario.projectile;
+    let (projectile, target) = cells(scenario);
+    let speed = |material: &Material| {
+        law(material, scenario).map_or(f64::NAN, |law| law.wave_speed_at_rest())
+    };
+    let of_rod = rod.length / speed(&rod.material);
+    let (mut passage, mut step) = (of_rod, of_rod / f64::from(projectile));
+    if let TargetBody::Layers { layers, .. } = &scenario.target {
+        let size = target_length(scenario) / f64::from(target);
+        for plate in layers {
+            let speed = speed(&plate.material);
+            passage += modelled_thickness(plate, scenario) / speed;
+            step = step.min(size / speed);
+        }
+    }
+    (
+        scenario.options.fdm.courant() * step,
+        limits(scenario, passage),
+    )
+}
+
 /// Projectile and target in uniaxial strain.
 #[derive(Debug)]
 pub(in crate::fdm) struct PlanarImpact<'a> {
@@ -212,18 +247,9 @@ impl<'a> Solver<'a> for PlanarImpact<'a> {
     const NAMES: (&'static str, &'static str) = ("fdm", "planar");
     const AUDIT: Audit = AUDIT;
 
-    fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
+    fn build(scenario: &'a Scenario, courant: f64, _: &mut Control<'_>) -> Result<Self, Error> {
         let refuse = || Error::not_applicable("fdm", not_applicable(scenario).unwrap_or_default());
         let (grid, passage, interface) = build(scenario).ok_or_else(refuse)?;
-        let options = &scenario.options.fdm;
-        let mut limits = Limits::new(
-            scenario,
-            options.end_time,
-            options.max_steps.unwrap_or(MAX_STEPS),
-        );
-        if options.end_time.is_none() {
-            limits.end_time = PASSAGES * passage;
-        }
         let back = BackFaceMotion {
             free: grid.ends[1] == BoundaryCondition::Free,
             ..BackFaceMotion::default()
@@ -234,9 +260,13 @@ impl<'a> Solver<'a> for PlanarImpact<'a> {
             interface,
             back,
             courant,
-            limits,
+            limits: limits(scenario, passage),
             before: 0.0,
         })
+    }
+
+    fn size(&self) -> usize {
+        self.grid.cells.len()
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {

@@ -5,4 +5,4 @@ mod mesh;
 mod results;
 mod run;
 
-pub(super) use run::RodRun;
+pub(super) use run::{RodRun, limits};

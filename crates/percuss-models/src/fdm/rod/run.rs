@@ -15,6 +15,7 @@ use crate::{
     options::{FdmOptions, MAX_STEPS},
     outcome::{Outcome, RunResult, Termination},
     solver::{
+        Control,
         archive::Archive,
         driver::Drive,
         interface::{Audit, Extremes, Solver, slowed},
@@ -119,21 +120,21 @@ impl<'a> Solver<'a> for Rod<'a> {
     const NAMES: (&'static str, &'static str) = ("fdm", "rod");
     const AUDIT: Audit = AUDIT;
 
-    fn build(scenario: &'a Scenario, courant: f64) -> Result<Self, Error> {
+    fn build(scenario: &'a Scenario, courant: f64, _: &mut Control<'_>) -> Result<Self, Error> {
         let options = options_of(scenario);
         Ok(Self {
             scenario,
             grid: mesh::build(scenario, &options),
-            limits: Limits::new(
-                scenario,
-                options.end_time,
-                options.max_steps.unwrap_or(MAX_STEPS),
-            ),
+            limits: limits(scenario).1,
             options,
             courant,
             window: Window::default(),
             before: 0.0,
         })
+    }
+
+    fn size(&self) -> usize {
+        self.grid.cells.len()
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
@@ -219,6 +220,14 @@ impl<'a> Solver<'a> for Rod<'a> {
     fn complete(&self, result: &mut RunResult, monitor: &RunMonitor) {
         results::complete(self, result, monitor);
     }
+}
+
+/// Courant number and limits of a run before it starts.
+pub(in crate::fdm) fn limits(scenario: &Scenario) -> (f64, Limits) {
+    let options = options_of(scenario);
+    let max_steps = options.max_steps.unwrap_or(MAX_STEPS);
+    let limits = Limits::new(scenario, options.end_time, max_steps);
+    (options.courant(), limits)
 }
 
 fn options_of(scenario: &Scenario) -> FdmOptions {

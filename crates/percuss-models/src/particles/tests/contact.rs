@@ -324,10 +324,10 @@ fn memory_is_estimated_before_it_is_taken() {
         "spacing = '0.1 mm'",
         0.2,
     );
-    let (body, _) = setup::build(&scenario);
+    let (body, _) = setup::build(&scenario, &mut Control::default()).unwrap();
     // State twice, motion, masses and weights.
     let taken = (body.rows.len() * body.stride * 17 * 8) as f64;
-    let estimated = Particles.memory(&scenario);
+    let estimated = Particles.estimate(&scenario).memory;
     assert!(
         (1.0..3.0).contains(&(estimated / taken)),
         "{estimated} {taken}"

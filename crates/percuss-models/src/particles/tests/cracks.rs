@@ -6,12 +6,13 @@ use super::{solid, strip};
 use crate::{
     options::Space,
     particles::{
-        body::{Body, Rows},
+        body::{Body, Rows, Slot},
         cracks::{Front, Notches},
         fracture::Softening,
         lattice::ROW,
         packing::Packing,
     },
+    solver::Control,
 };
 
 const SPACE: Space = Space::PlaneStress;
@@ -28,7 +29,7 @@ fn brittle() -> Body {
 
 fn soften(body: &mut Body) {
     let law = Softening::new(&body.lattice, 20.0, 3.0, false);
-    body.soften(law);
+    body.soften(law, &mut Control::default()).unwrap();
 }
 
 /// A cut from face to face leaves two pieces, a shorter one leaves the body whole; a notch is no crack.
@@ -40,7 +41,7 @@ fn a_notch_cuts_the_bonds_that_it_crosses_and_no_others() {
         let mut body = brittle();
         let ends = [[place, -depth], [place, end]];
         body.cut(ends);
-        let notches = Notches::of(&body, vec![ends]);
+        let notches = Notches::of(&body, &[(ends, false)]);
         let mut front = Front::default();
         front.follow(&body, &notches, 1e-6);
         let cracks = front.results(&body, &notches);
@@ -68,7 +69,7 @@ fn a_straight_crack_has_its_length_and_angle() {
     let place = 4.25 * SPACING;
     let notch = [[place, -SPACING], [place, 0.4 * depth]];
     body.cut(notch);
-    let notches = Notches::of(&body, vec![notch]);
+    let notches = Notches::of(&body, &[(notch, false)]);
     body.cut([notch[1], [place, 2.0 * depth]]);
     let mut front = Front::default();
     front.follow(&body, &notches, 1e-6);
@@ -90,12 +91,61 @@ fn a_straight_crack_has_its_length_and_angle() {
 fn a_notch_that_cuts_nothing_is_found() {
     let mut body = brittle();
     let place = 4.25 * SPACING;
-    let ends = vec![
+    let ends = [
         [[1.0, 0.0], [1.0, 1e-3]],
         [[place, -SPACING], [place, 1e-3]],
     ];
     body.cut(ends[1]);
-    assert_eq!(Notches::of(&body, ends).idle(&body), [1]);
+    let cuts = ends.map(|ends| (ends, false));
+    assert_eq!(Notches::of(&body, &cuts).idle(&body), [1]);
+    let slots = ends.map(|ends| (ends, true));
+    assert_eq!(Notches::of(&body, &slots).idle(&body), [1]);
+}
+
+/// No particle stands in a slot, all others do; a crack from its tip starts there.
+#[test]
+fn a_slot_is_empty_and_its_crack_starts_at_the_tip() {
+    let lattice = solid(RATIO).lattice(SPACE, SPACING);
+    let rows = Rows {
+        count: 41,
+        particles: 60,
+    };
+    let whole = Body::strip(
+        lattice,
+        rows,
+        0.0,
+        Packing::Hexagonal,
+        &mut Control::default(),
+    )
+    .unwrap();
+    let (width, tip) = (2.5 * SPACING, [4.0 * SPACING, 20.0 * ROW * SPACING]);
+    let ends = [[tip[0], -width], tip];
+    let slots = [Slot::new(ends, width)];
+    let control = &mut Control::default();
+    let mut body =
+        Body::slotted_strip(lattice, rows, 0.0, Packing::Hexagonal, &slots, control).unwrap();
+    let in_slot = |[x, z]: [f64; 2]| {
+        let below = z - (tip[1] - 0.5 * width);
+        (x - tip[0]).hypot(below.max(0.0)) < 0.5 * width
+    };
+    let (mut empty, mut kept) = (0, 0);
+    for (row, place) in whole.particles() {
+        let at = whole.reference(row, place);
+        let is_there = body.rows[row].mass[place] > 0.0;
+        assert_eq!(is_there, !in_slot(at), "{at:?}");
+        empty += usize::from(!is_there);
+        kept += usize::from(is_there);
+    }
+    assert!(empty > 30 && kept > 2000, "{empty} {kept}");
+    body.soften(brittle().softening.unwrap(), &mut Control::default())
+        .unwrap();
+    let notches = Notches::of(&body, &[(ends, true)]);
+    body.cut([tip, [tip[0], tip[1] + 5.0 * SPACING]]);
+    let mut front = Front::default();
+    front.follow(&body, &notches, 1e-6);
+    let cracks = front.results(&body, &notches);
+    assert!((front.reach / SPACING - 5.0).abs() < 1.0, "{}", front.reach);
+    assert!(cracks.angle.unwrap() < 0.15, "{:?}", cracks.angle);
 }
 
 /// A disc has the mass of its circle, less the half layer at its rim that belongs to no whole triangle.
@@ -109,7 +159,7 @@ fn a_disc_has_the_mass_of_its_circle() {
             count: layers as usize + 1,
             particles: columns,
         };
-        let body = Body::disc(lattice, rows, Packing::Hexagonal);
+        let body = Body::disc(lattice, rows, Packing::Hexagonal, &mut Control::default()).unwrap();
         let exact = 0.25 * PI * diameter * diameter * 2500.0;
         let error = body.mass() / exact - 1.0;
         println!("disc of {layers} layers: mass {:+.2} %", 100.0 * error);

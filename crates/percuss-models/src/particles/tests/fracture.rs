@@ -9,6 +9,7 @@ use crate::{
         lattice::ROW,
         packing::{Moved, Packing},
     },
+    solver::Control,
 };
 
 const SPACE: Space = Space::PlaneStress;
@@ -28,7 +29,8 @@ fn soften(body: &mut Body, strain: f64, end: f64, irregular: bool) -> f64 {
     let elongation = strain * lattice.spacing;
     let of_bond = 0.5 * lattice.normal * elongation * elongation * end;
     let energy = 2.0 * of_bond * lattice_factor(irregular, end) / lattice.spacing;
-    body.soften(Softening::new(&lattice, energy, end, irregular));
+    let softening = Softening::new(&lattice, energy, end, irregular);
+    body.soften(softening, &mut Control::default()).unwrap();
     energy
 }
 
@@ -113,13 +115,13 @@ fn the_energy_balance_closes_while_bonds_break() {
             count: 21,
             particles: 60,
         };
-        let mut body = Body::strip(lattice, rows, 0.0, packing);
+        let mut body = Body::strip(lattice, rows, 0.0, packing, &mut Control::default()).unwrap();
         soften(&mut body, 1e-3, 5.0, moved);
         let particles: Vec<_> = body.particles().collect();
         for (row, place) in particles {
             body.motion[row].x[place] = 1e3 * body.reference(row, place)[0];
         }
-        let step = 0.25 * 2.0 / body.measured_frequency();
+        let step = 0.25 * 2.0 / body.measured_frequency(&mut Control::default()).unwrap();
         let start = body.sums(0.0, &[]).kinetic;
         let mut worst: f64 = 0.0;
         for _ in 0..1200 {
@@ -243,7 +245,7 @@ fn factor_of_start(packing: Packing, columns: usize, end: f64) -> f64 {
         count: 21,
         particles: columns,
     };
-    let mut start = Body::strip(lattice, rows, 0.0, packing);
+    let mut start = Body::strip(lattice, rows, 0.0, packing, &mut Control::default()).unwrap();
     let first = 1e-3;
     let energy = soften(&mut start, first, end, moved) / lattice_factor(moved, end);
     for row in [0, rows.count - 1] {
@@ -251,7 +253,7 @@ fn factor_of_start(packing: Packing, columns: usize, end: f64) -> f64 {
         start.rows[row].inverse_inertia.fill(0.0);
     }
     slit(&mut start);
-    let step = 0.4 * 2.0 / start.measured_frequency();
+    let step = 0.4 * 2.0 / start.measured_frequency(&mut Control::default()).unwrap();
     let height = ROW * SPACING * (rows.count as f64 - 1.0);
     let (first, second) = solid(RATIO).plane_constants(SPACE);
     let constant = first + 2.0 * second;

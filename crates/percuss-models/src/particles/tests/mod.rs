@@ -13,7 +13,7 @@ use super::{
     lattice::Solid,
     packing::Packing,
 };
-use crate::options::Space;
+use crate::{options::Space, solver::Control};
 
 /// Glass of a Poisson's ratio.
 pub(super) fn solid(poissons_ratio: f64) -> Solid {
@@ -35,7 +35,9 @@ pub(super) fn strip(space: Space, ratio: f64, rows: usize, particles: usize) -> 
         },
         0.0,
         Packing::Hexagonal,
+        &mut Control::default(),
     )
+    .unwrap()
 }
 
 /// Sets the displacement of every particle as a function of its position.

@@ -10,6 +10,7 @@ use crate::{
         packing::Packing,
         step::Load,
     },
+    solver::Control,
 };
 
 use super::solid;
@@ -33,7 +34,9 @@ fn disc(radius: f64) -> Body {
             let z = (row as f64 - middle.0) * ROW;
             x * x + z * z <= radius * radius
         },
+        &mut Control::default(),
     )
+    .unwrap()
 }
 
 /// Largest stable step.

@@ -9,6 +9,7 @@ use crate::{
         packing::{Moved, Packing},
         periodic::Periodic,
     },
+    solver::Control,
 };
 
 const SIZE: usize = 48;
@@ -23,7 +24,14 @@ fn body(amplitude: f64) -> Body {
         count: 70,
         particles: 80,
     };
-    Body::strip(lattice, rows, 0.0, Packing::Irregular(moved(amplitude, 3)))
+    Body::strip(
+        lattice,
+        rows,
+        0.0,
+        Packing::Irregular(moved(amplitude, 3)),
+        &mut Control::default(),
+    )
+    .unwrap()
 }
 
 /// Errors of C11, C22, C12 and C66 of a cell of tuned springs.

@@ -1,4 +1,6 @@
-//! A file of tests as a table: the fields of a row by name, and errors that name their place.
+//! Tables of comma-separated values: the fields of a row by name, and errors that name their place.
+
+pub mod header;
 
 use std::ops::Range;
 
@@ -7,22 +9,29 @@ use crate::{
     units::shorten,
 };
 
-/// A file of tests and which column stands where.
-pub(crate) struct CsvTable<'a> {
-    pub(crate) file: &'a str,
-    pub(crate) text: &'a str,
-    pub(crate) header: Vec<String>,
+/// A table and which column stands where.
+#[derive(Debug)]
+pub struct CsvTable<'a> {
+    /// What stands for its file in messages.
+    pub file: &'a str,
+    /// Its text.
+    pub text: &'a str,
+    /// Names of its columns.
+    pub header: Vec<String>,
 }
 
-/// A row of it.
-pub(crate) struct CsvRow<'a> {
-    pub(crate) table: &'a CsvTable<'a>,
-    pub(crate) record: csv::StringRecord,
+/// A row of a table.
+#[derive(Debug)]
+pub struct CsvRow<'a> {
+    /// Its table.
+    pub table: &'a CsvTable<'a>,
+    /// Its fields.
+    pub record: csv::StringRecord,
 }
 
 impl<'a> CsvTable<'a> {
     /// The table and its rows that hold anything; `file` stands for it in messages.
-    pub(crate) fn read(
+    pub fn read(
         file: &'a str,
         text: &'a str,
     ) -> Result<(Self, Vec<csv::StringRecord>), Box<InputError>> {
@@ -48,7 +57,8 @@ impl<'a> CsvTable<'a> {
         Ok((table, records))
     }
 
-    pub(crate) fn error(
+    /// An error at bytes of the text.
+    pub fn error(
         &self,
         span: Range<usize>,
         column: &str,
@@ -69,24 +79,24 @@ impl<'a> CsvTable<'a> {
 
 impl CsvRow<'_> {
     /// Text of a field; empty where the file lacks the column.
-    pub(crate) fn text(&self, column: &str) -> &str {
+    pub fn text(&self, column: &str) -> &str {
         let at = self.table.header.iter().position(|name| name == column);
         at.and_then(|at| self.record.get(at)).map_or("", str::trim)
     }
 
     /// Text of a field, unless it is empty.
-    pub(crate) fn optional(&self, column: &str) -> Option<String> {
+    pub fn optional(&self, column: &str) -> Option<String> {
         Some(self.text(column).to_owned()).filter(|text| !text.is_empty())
     }
 
     /// Text of a field that must not be empty.
-    pub(crate) fn required(&self, column: &str) -> Result<String, Box<InputError>> {
+    pub fn required(&self, column: &str) -> Result<String, Box<InputError>> {
         self.optional(column)
             .ok_or_else(|| self.error(column, format!("`{column}` is empty"), "write its value"))
     }
 
     /// A number, unless the field is empty.
-    pub(crate) fn number(&self, column: &str) -> Result<Option<f64>, Box<InputError>> {
+    pub fn number(&self, column: &str) -> Result<Option<f64>, Box<InputError>> {
         let text = self.text(column);
         if text.is_empty() {
             return Ok(None);
@@ -102,7 +112,7 @@ impl CsvRow<'_> {
     }
 
     /// A number that must be there.
-    pub(crate) fn required_number(&self, column: &str) -> Result<f64, Box<InputError>> {
+    pub fn required_number(&self, column: &str) -> Result<f64, Box<InputError>> {
         self.required(column)?;
         match self.number(column)? {
             Some(number) => Ok(number),
@@ -111,7 +121,7 @@ impl CsvRow<'_> {
     }
 
     /// One of several words; `None` when the field is empty.
-    pub(crate) fn word<T: Copy>(
+    pub fn word<T: Copy>(
         &self,
         column: &str,
         words: &[(&'static str, T)],
@@ -134,7 +144,7 @@ impl CsvRow<'_> {
     }
 
     /// An error at a field; at the start of the row where the file lacks the column.
-    pub(crate) fn error(
+    pub fn error(
         &self,
         column: &str,
         message: impl Into<String>,
@@ -156,7 +166,7 @@ impl CsvRow<'_> {
 }
 
 /// Bytes of field `index` of the record that begins at `start`, its quotes included; at least one byte where there is one.
-pub(crate) fn field_span(text: &str, start: usize, index: usize) -> Range<usize> {
+pub fn field_span(text: &str, start: usize, index: usize) -> Range<usize> {
     // The reader counts line breaks that it skips to the record that follows.
     let skipped = text[start..].find(|c| c != '\n' && c != '\r').unwrap_or(0);
     let (mut begin, mut field, mut quoted) = (start + skipped, 0, false);

@@ -1,6 +1,6 @@
-//! The first line of a file of tests.
+//! The first line of a table.
 
-use super::row::{CsvTable, field_span};
+use super::{CsvTable, field_span};
 use crate::{
     document::Renamed,
     error::{InputError, nearest},
@@ -10,7 +10,7 @@ use crate::{
 /// Makes sure that columns are there once and that none is missing; returns those that nothing reads.
 ///
 /// A name near that of a known column is taken as misspelt, and so is the only name of a line.
-pub(crate) fn check(
+pub fn check(
     table: &CsvTable<'_>,
     known: &[&str],
     required: &[&str],

@@ -1,0 +1,49 @@
+//! Table of the differences from measured curves.
+
+use percuss::{compare::Comparison, measured_curves::CurveComparison};
+use percuss_report::{
+    result_rows::curve_label,
+    table::{Table, number},
+};
+
+use crate::{table::blocks, terminal::bold};
+
+/// The table, for the velocity of the case, of models with histories; empty without measured curves.
+pub fn text(comparison: &Comparison) -> String {
+    let rows: Vec<(&str, &CurveComparison)> = comparison
+        .results
+        .iter()
+        .filter(|record| record.is_result())
+        .flat_map(|record| {
+            let curves = record.measured_curves.iter();
+            let drawn = curves.filter(|curve| !curve.computed.is_empty());
+            drawn.map(|curve| (record.model, curve))
+        })
+        .collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    let with_unit = |value: Option<f64>, unit: &str| match value {
+        Some(_) => format!("{} {unit}", number(value, 3)),
+        None => number(None, 3),
+    };
+    let table = Table::of(&rows)
+        .words("model", |(model, _)| *model)
+        .words("measured curve", |(_, curve)| curve_label(curve))
+        .numbers("RMS\ndifference", "", |(_, curve)| {
+            with_unit(curve.rms_difference, curve.unit)
+        })
+        .numbers("relative", "%", |(_, curve)| {
+            number(curve.relative_rms_difference.map(|part| 100.0 * part), 3)
+        })
+        .numbers("largest\ndifference", "", |(_, curve)| {
+            with_unit(curve.largest_difference, curve.unit)
+        })
+        .when(
+            rows.iter().any(|(_, curve)| curve.reason.is_some()),
+            |all| all.words("", |(_, curve)| curve.reason.clone().unwrap_or_default()),
+        )
+        .table();
+    let heading = "differences from measured curves over the common time, of models with histories";
+    format!("{}\n{}", bold(heading), blocks(&table))
+}

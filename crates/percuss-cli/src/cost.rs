@@ -1,0 +1,63 @@
+//! Notes on the cost of a computation, before it starts.
+
+use percuss::{
+    Scenario,
+    input_file::size,
+    model::{self, Estimate, Model, time_in_words},
+};
+
+use crate::diagnostic;
+
+/// Processor time from which the cost is told [s].
+const NOTABLE: f64 = 30.0;
+
+/// Tells on standard error what a computation will cost, if that is much.
+pub fn tell(estimate: Estimate, quiet: bool) {
+    if let Some(words) = note(estimate).filter(|_| !quiet) {
+        diagnostic::print(&format!("note: {words}\n"));
+    }
+}
+
+/// Estimated cost of a model's run of a case; of none where the model does not apply.
+pub fn of_run(model: &dyn Model, scenario: &Scenario) -> Estimate {
+    match model::applicability(model, scenario) {
+        Ok(_) => model.estimate(scenario),
+        Err(_) => Estimate::LITTLE,
+    }
+}
+
+fn note(estimate: Estimate) -> Option<String> {
+    let Estimate {
+        memory,
+        steps,
+        seconds,
+    } = estimate;
+    (seconds >= NOTABLE).then(|| {
+        format!(
+            "estimated cost: {} of processor time, {steps:.1e} time steps, {} of memory",
+            time_in_words(seconds),
+            size(memory as u64),
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_long_computations_have_a_note() {
+        let estimate = |seconds: f64| Estimate {
+            memory: 3e9,
+            steps: 1_234_567.0,
+            seconds,
+        };
+        assert_eq!(note(estimate(29.0)), None);
+        assert_eq!(note(estimate(f64::NAN)), None);
+        let words = note(estimate(20_000.0)).unwrap();
+        assert_eq!(
+            words,
+            "estimated cost: 6 h of processor time, 1.2e6 time steps, 2.8 GiB of memory"
+        );
+    }
+}

@@ -1,0 +1,263 @@
+//! Curves that were measured in the test of a case, from their tables.
+
+use std::borrow::Cow;
+
+use super::{Case, Document};
+use crate::{
+    check::Diagnostic,
+    csv_table::{CsvRow, CsvTable, field_span, header},
+    document::read_text,
+    error::{Error, InputError},
+    history::{ELEMENT_COLUMNS, Read, SAMPLE_COLUMNS},
+    problem::MeasuredTable,
+    scenario::MeasuredCurve,
+    units::{ColumnName, ColumnUnit, ResultUnit, column_symbols, shorten},
+};
+
+/// Name of the column of times.
+const TIME: &str = "time";
+/// Most characters of the tables of a case: a copy of the case holds them all.
+const MOST: usize = 3 << 18;
+
+/// Quantity of a curve: name without unit and unit of its kind.
+type Kind = (&'static str, ResultUnit);
+
+/// The measured curves of a case, in the order of its tables and their columns.
+pub(super) fn measured_curves(
+    case: &Case,
+    document: &Document,
+) -> Result<Vec<MeasuredCurve>, Error> {
+    let mut curves = Vec::new();
+    let mut length = 0;
+    for (i, table) in case.measured_curves.iter().enumerate() {
+        let key = format!("measured_curves.{i}");
+        let (file, text) = source(table, &key, document)?;
+        length += text.len();
+        if length > MOST {
+            let message = format!("the measured curves have more than {} KiB", MOST >> 10);
+            let help = "keep fewer rows: a few hundred show a curve";
+            return Err(document.place(Diagnostic::at(&key, message, help)).into());
+        }
+        curves.extend(read(&file, &text, table, i)?);
+    }
+    Ok(curves)
+}
+
+/// Text of the table, with the name that stands for its file in messages.
+fn source<'a>(
+    table: &'a MeasuredTable,
+    key: &str,
+    document: &Document,
+) -> Result<(String, Cow<'a, str>), Error> {
+    let refuse = |message: &str, help: &str| -> Error {
+        let diagnostic = Diagnostic::at(&format!("{key}.file"), message, help);
+        document.place(diagnostic).into()
+    };
+    let Some(relative) = &table.file else {
+        let text = table.csv.as_deref().unwrap_or_default();
+        return Ok((format!("{}: {key}.csv", document.file), text.into()));
+    };
+    let path = match &document.folder {
+        Some(folder) => folder.join(relative),
+        None => {
+            return Err(refuse(
+                "a case that comes from no file cannot name files of measured curves",
+                "give the text of the file as `csv`",
+            ));
+        }
+    };
+    match read_text(&path) {
+        Ok(text) => Ok((path.display().to_string(), text.into())),
+        Err(error) => {
+            let (message, remedy) = error.message_and_help();
+            let place = "the path is relative to the case file";
+            let help = match remedy.as_str() {
+                "" => place.to_owned(),
+                remedy => format!("{remedy}; {place}"),
+            };
+            Err(refuse(&message, &help))
+        }
+    }
+}
+
+/// A column with the quantity and unit that it is in.
+struct Found {
+    column: String,
+    kind: Kind,
+    unit: ColumnUnit,
+}
+
+fn read(
+    file: &str,
+    text: &str,
+    of: &MeasuredTable,
+    index: usize,
+) -> Result<Vec<MeasuredCurve>, Error> {
+    let (table, records) = CsvTable::read(file, text)?;
+    let (time, columns, unread_columns) = columns(&table, of)?;
+    let rows: Vec<CsvRow<'_>> = records
+        .into_iter()
+        .map(|record| CsvRow {
+            table: &table,
+            record,
+        })
+        .collect();
+    let times = times(&rows, &time)?;
+    let curve = |column: &Found| -> Result<MeasuredCurve, Error> {
+        let mut points = Vec::new();
+        for (row, time) in rows.iter().zip(&times) {
+            if let Some(value) = row.number(&column.column)? {
+                points.push((*time, column.unit.to_si(value)));
+            }
+        }
+        if points.len() < 2 {
+            let at = table.header.iter().position(|name| *name == column.column);
+            let span = field_span(table.text, 0, at.unwrap_or(0));
+            let message = format!("`{}` has fewer than two values", column.column);
+            let help = "a curve has two values or more: one row for each time";
+            return Err(table.error(span, &column.column, message, help).into());
+        }
+        Ok(MeasuredCurve {
+            name: of.name(index),
+            gauge: of.gauge.clone(),
+            quantity: column.kind.0,
+            unit: column.kind.1,
+            points,
+            unread_columns: unread_columns.clone(),
+        })
+    };
+    columns.iter().map(curve).collect()
+}
+
+/// Times [s], each later than the one before it.
+fn times(rows: &[CsvRow<'_>], time: &Found) -> Result<Vec<f64>, Box<InputError>> {
+    let mut times: Vec<f64> = Vec::new();
+    for (i, row) in rows.iter().enumerate() {
+        let value = time.unit.to_si(row.required_number(&time.column)?);
+        if times.last().is_some_and(|before| value <= *before) {
+            let before = rows[i - 1].text(&time.column);
+            let message = format!(
+                "time {} does not come after {before}",
+                row.text(&time.column)
+            );
+            let help = "sort the rows by time and keep one row for each time";
+            return Err(row.error(&time.column, message, help));
+        }
+        times.push(value);
+    }
+    Ok(times)
+}
+
+/// The column of times, those of quantities, and the names of the columns that nothing reads.
+fn columns(
+    table: &CsvTable<'_>,
+    of: &MeasuredTable,
+) -> Result<(Found, Vec<Found>, Vec<String>), Box<InputError>> {
+    let at_gauge = of.gauge.is_some();
+    let (own, others) = match at_gauge {
+        true => (gauge_kinds(), sample_kinds()),
+        false => (sample_kinds(), gauge_kinds()),
+    };
+    let mut known: Vec<String> = Vec::new();
+    let mut times = None;
+    let mut found: Vec<Found> = Vec::new();
+    for (i, name) in table.header.iter().enumerate() {
+        let span = field_span(table.text, 0, i);
+        let refuse = |message: String, help: String| Err(table.error(span, name, message, help));
+        let Some((kind, of_name)) = matching(name, &own) else {
+            if let Some((kind, _)) = matching(name, &others) {
+                let (message, help) = of_other_table(kind.0, at_gauge);
+                return refuse(message, help);
+            }
+            continue;
+        };
+        let column = match of_name {
+            ColumnName::InUnit(unit) => Found {
+                column: name.clone(),
+                kind,
+                unit,
+            },
+            ColumnName::UnknownUnit(unit) => {
+                let message = format!("`{}` is no unit of `{}`", shorten(&unit), kind.0);
+                return refuse(message, format!("units: {}", column_symbols(kind.1)));
+            }
+            _ => {
+                let message = format!("the unit of `{}` is missing", kind.0);
+                let example = format!("{} ({})", kind.0, kind.1.symbol);
+                let units = column_symbols(kind.1);
+                return refuse(message, format!("write `{example}`; units: {units}"));
+            }
+        };
+        let is_second = match kind.0 {
+            TIME => times.is_some(),
+            quantity => found.iter().any(|other| other.kind.0 == quantity),
+        };
+        if is_second {
+            return refuse(
+                format!("two columns are of `{}`", kind.0),
+                "remove one".into(),
+            );
+        }
+        known.push(name.clone());
+        match kind.0 {
+            TIME => times = Some(column),
+            _ => found.push(column),
+        }
+    }
+    let canonical = own
+        .iter()
+        .map(|(name, unit)| format!("{name}{}", unit.suffix));
+    let all: Vec<String> = known.into_iter().chain(canonical).collect();
+    let all: Vec<&str> = all.iter().map(String::as_str).collect();
+    let unread = header::check(table, &all, &[])?;
+    let Some(time) = times else {
+        let help = "name it with its unit, such as `time_us`; columns are separated by commas";
+        return Err(table.error(0..0, "", "the table has no column of times", help));
+    };
+    if found.is_empty() {
+        let names: Vec<&str> = own.iter().map(|(name, _)| *name).skip(1).collect();
+        let help = format!("quantities: {}", names.join(", "));
+        return Err(table.error(0..0, "", "the table has no column of a quantity", help));
+    }
+    Ok((time, found, unread))
+}
+
+/// The quantity that a column name names.
+fn matching(name: &str, kinds: &[Kind]) -> Option<(Kind, ColumnName)> {
+    kinds.iter().find_map(|kind| {
+        let of_name = ColumnName::of(name, kind.0, kind.1);
+        (of_name != ColumnName::Other).then_some((*kind, of_name))
+    })
+}
+
+fn of_other_table(quantity: &str, at_gauge: bool) -> (String, String) {
+    match at_gauge {
+        true => (
+            format!("`{quantity}` is no quantity of a gauge"),
+            "put it into a table of its own, without `gauge`".to_owned(),
+        ),
+        false => (
+            format!("`{quantity}` is a quantity of a gauge"),
+            "name the gauge of the case: `gauge = \"NAME\"`".to_owned(),
+        ),
+    }
+}
+
+/// Time and the quantities of a history.
+fn sample_kinds() -> Vec<Kind> {
+    let columns = SAMPLE_COLUMNS.iter();
+    let numbers = columns.filter(|column| matches!(column.read, Read::Number(_)));
+    numbers
+        .map(|column| (column.quantity, column.unit))
+        .collect()
+}
+
+/// Time and the quantities of a gauge.
+fn gauge_kinds() -> Vec<Kind> {
+    let columns = ELEMENT_COLUMNS.iter();
+    let numbers = columns.filter(|column| matches!(column.read, Read::Number(_)));
+    let numbers = numbers.map(|column| (column.quantity, column.unit));
+    std::iter::once((TIME, ResultUnit::US))
+        .chain(numbers)
+        .collect()
+}

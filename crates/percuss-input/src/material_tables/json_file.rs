@@ -1,0 +1,102 @@
+//! JSON with a record for each id, as `percuss materials export --format json` prints it.
+
+use serde_json::Value;
+
+use crate::{
+    check::Check,
+    document::reword_toml_error,
+    error::{Error, InputError, Subject},
+    lsdyna::Imported,
+    material::{Material, MaterialTable},
+};
+
+/// Records as JSON: an object with a record for each id, keys and units as in a case file.
+///
+/// # Errors
+/// The reason, where a record cannot be written.
+pub fn json(records: &MaterialTable) -> Result<String, String> {
+    let text = serde_json::to_string_pretty(records).map_err(|error| error.to_string())?;
+    Ok(text + "\n")
+}
+
+/// Reads records as JSON; `file` stands for it in messages.
+///
+/// # Errors
+/// [`Error::Input`] with the id and key of what is not valid, and its line.
+pub fn read_json(file: &str, text: &str) -> Result<Imported, Error> {
+    let refuse = |span, key: String, message: String, help: String| -> Error {
+        let error = InputError {
+            subject: Subject::Material,
+            file: file.to_owned(),
+            text: text.to_owned(),
+            span,
+            key,
+            message,
+            help,
+        };
+        error.into()
+    };
+    let whole: Value = serde_json::from_str(text).map_err(|error| {
+        let place = place(text, &error);
+        let help = "up to here the file is valid JSON".to_owned();
+        refuse(place, String::new(), error.to_string(), help)
+    })?;
+    let Value::Object(entries) = whole else {
+        let message = "the file is no object with a record for each id".to_owned();
+        let help = "write {\"my-steel\": {\"name\": \"...\", \"density\": \"7850 kg/m3\", ...}}";
+        return Err(refuse(0..0, String::new(), message, help.to_owned()));
+    };
+    let mut found = Imported::default();
+    for (id, record) in entries {
+        let failed = |key: &str, message: String, help: String| {
+            let span = of_key(text, &id, key);
+            let key = match key {
+                "" => id.clone(),
+                key => format!("{id}.{key}"),
+            };
+            refuse(span, key, message, help)
+        };
+        let material: Material = serde_json::from_value(record).map_err(|error| {
+            let said = reword_toml_error(&error.to_string(), "");
+            failed("", said.message, said.help)
+        })?;
+        let mut diagnostics = Vec::new();
+        material.check(&mut Check::new(&mut diagnostics));
+        if let Some(first) = diagnostics.into_iter().next() {
+            return Err(failed(&first.key, first.message, first.help));
+        }
+        found.records.insert(id, material);
+    }
+    if found.records.is_empty() {
+        let message = "the file holds no material".to_owned();
+        let help = "write a record for each id".to_owned();
+        return Err(refuse(0..0, String::new(), message, help));
+    }
+    Ok(found)
+}
+
+/// The byte of an error.
+fn place(text: &str, error: &serde_json::Error) -> std::ops::Range<usize> {
+    let before = text
+        .split_inclusive('\n')
+        .take(error.line().saturating_sub(1));
+    let start: usize = before.map(str::len).sum();
+    let at = (start + error.column().saturating_sub(1)).min(text.len());
+    at..(at + 1).min(text.len())
+}
+
+/// The bytes of the last part of a key behind its id; those of the id where it is not there.
+fn of_key(text: &str, id: &str, key: &str) -> std::ops::Range<usize> {
+    let quoted = |name: &str| format!("\"{name}\"");
+    let Some(start) = text.find(&quoted(id)) else {
+        return 0..0;
+    };
+    let mut at = start..start + quoted(id).len();
+    for part in key.split('.').filter(|part| !part.is_empty()) {
+        if let Some(found) = text[at.end..].find(&quoted(part)) {
+            let begin = at.end + found;
+            at = begin..begin + quoted(part).len();
+        }
+    }
+    at
+}

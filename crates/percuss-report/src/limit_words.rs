@@ -1,0 +1,49 @@
+//! A ballistic limit in words: the one to use, and the axisymmetric one.
+
+use percuss::{limit::Limits, units::significant};
+
+use crate::result_rows::with_uncertainty;
+
+/// The limit to use, and how far to trust it.
+pub fn limit_headline(limits: &Limits) -> Option<String> {
+    let choice = limits.recommended.first()?;
+    let line = match limits.results.iter().find(|l| l.model == choice.model) {
+        Some(entry) => {
+            let value = entry.ballistic_limit_m_s?;
+            let error = entry.expected_error.as_ref();
+            let error = error.map_or_else(String::new, |e| {
+                format!(", model error {}", e.errors.describe())
+            });
+            format!(
+                "Ballistic limit {} m/s ({}){error}{}",
+                significant(value, 4),
+                choice.model,
+                from_measured(limits, value)
+            )
+        }
+        None => format!(
+            "Axisymmetric ballistic limit {}",
+            axisymmetric_limit(limits)?
+        ),
+    };
+    Some(line)
+}
+
+/// Difference from the measured limit in words; empty without one.
+fn from_measured(limits: &Limits, value: f64) -> String {
+    limits.measured().map_or_else(String::new, |(measured, _)| {
+        format!(
+            ", {:+.1} % from the measured {} m/s",
+            100.0 * (value / measured - 1.0),
+            significant(measured, 4)
+        )
+    })
+}
+
+/// The axisymmetric limit with its uncertainty, if there is one.
+pub fn axisymmetric_limit(limits: &Limits) -> Option<String> {
+    let limit = limits.axisymmetric.as_ref()?;
+    let value = limit.ballistic_limit_m_s?;
+    let shown = with_uncertainty(value, limit.uncertainty_m_s.unwrap_or(0.0), "m/s");
+    Some(shown + &from_measured(limits, value))
+}
