@@ -30,7 +30,7 @@ const AFTER_HELP: &str = "\
 Examples:
   percuss materials export 4340 > my-steel.toml
   percuss materials export rha 4340 --format csv --out steels.csv
-  percuss materials export rha 4340 --format ls-dyna --units mm-kg-ms --out s.k
+  percuss materials export 4340 --format ls-dyna --units mm-kg-ms --out s.k
 
 Exit codes: 0 ok, 2 bad input or no such material, 4 a file could not be read or
 written";
