@@ -54,6 +54,13 @@ pub enum Failure {
     Interrupted(&'static str),
     /// The user stopped the axisymmetric runs; the result of the model is there.
     AxisymmetricStopped,
+    /// The user stopped the packings after the first one; those that are complete are there.
+    SeedsStopped {
+        /// How many are complete.
+        complete: usize,
+        /// How many were wanted.
+        wanted: u16,
+    },
     /// The command line asks for something that does not exist.
     Usage {
         /// Message.
@@ -128,7 +135,8 @@ impl Failure {
             Self::Stopped { .. }
             | Self::SweepStopped { .. }
             | Self::Interrupted(_)
-            | Self::AxisymmetricStopped => 130,
+            | Self::AxisymmetricStopped
+            | Self::SeedsStopped { .. } => 130,
             Self::Library(Error::Numerical(_) | Error::Cancelled { .. }) | Self::Report(_) => 3,
             Self::Library(Error::Read { .. }) | Self::Write { .. } | Self::Output(_) => 4,
             Self::Library(Error::Input(error)) if error.subject == Subject::MaterialFile => 4,
@@ -207,6 +215,12 @@ impl Failure {
             Self::AxisymmetricStopped => message(
                 "the axisymmetric runs were stopped; the result of the model stands",
                 "`--fast` leaves them out",
+            ),
+            Self::SeedsStopped { complete, wanted } => message(
+                &format!(
+                    "the run was stopped after {complete} of {wanted} packings; their results stand"
+                ),
+                "",
             ),
             Self::Usage {
                 message: what,

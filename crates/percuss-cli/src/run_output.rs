@@ -20,6 +20,8 @@ pub struct RunOutput {
     pub axisymmetric: Option<AxisymmetricAnswer>,
     /// Study over seeds; `None` where none is wanted.
     pub seeds: Option<SeedStudy>,
+    /// Whether that study was stopped before its last packing.
+    pub seeds_stopped: bool,
 }
 
 impl RunOutput {

@@ -20,6 +20,7 @@ mod models;
 mod modules;
 mod moved;
 mod new;
+mod packings;
 mod random_requests;
 mod readme;
 mod reference;

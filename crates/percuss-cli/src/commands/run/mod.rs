@@ -6,7 +6,14 @@ mod other_models;
 mod seeds;
 mod task;
 
-use std::{path::PathBuf, sync::Arc, sync::atomic::AtomicBool, time::Duration};
+use std::{
+    path::PathBuf,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::Duration,
+};
 
 use clap::{Args, builder::PossibleValuesParser, value_parser};
 use percuss::{
@@ -167,8 +174,8 @@ impl Run {
                 diagnostic::print(&format!("note: {words}\n"));
             }
         };
-        // A run that leaves no checkpoint just ends with the program.
-        let stop = match self.leaves_checkpoints() {
+        // A run that leaves no checkpoint and is no study just ends with the program.
+        let stop = match self.leaves_checkpoints() || self.seeds.is_some() {
             true => workers::stop_on_request(),
             false => Arc::default(),
         };
@@ -177,7 +184,12 @@ impl Run {
         let mut progress = Progress::new(!self.quiet);
         let run_output = task.compute(&mut progress.callback());
         progress.finish();
-        let mut run_output = run_output?;
+        let mut run_output = run_output.map_err(|error| match error {
+            Failure::Library(Error::Cancelled { .. }) if stop.load(Ordering::Relaxed) => {
+                Failure::Interrupted("the run")
+            }
+            error => error,
+        })?;
         let wanted = Wanted::of(self, &run_output.scenario);
         let is_planned = wanted.as_ref().is_some_and(Wanted::is_planned);
         let is_text = !(self.json || self.quiet);
@@ -198,9 +210,13 @@ impl Run {
         let files = task.write(&run_output, &mut |part, words| progress.update(part, words));
         progress.finish();
         self.print(&run_output, &files?, is_planned)?;
-        match was_stopped {
-            true => Err(Failure::AxisymmetricStopped),
-            false => Ok(()),
+        match (was_stopped, run_output.seeds_stopped) {
+            (true, _) => Err(Failure::AxisymmetricStopped),
+            (false, true) => Err(Failure::SeedsStopped {
+                complete: run_output.seeds.map_or(1, |study| study.seeds.len()),
+                wanted: self.seeds.unwrap_or(1),
+            }),
+            (false, false) => Ok(()),
         }
     }
 
@@ -217,6 +233,10 @@ impl Run {
         let model = if is_planned { MODEL } else { 1.0 };
         let mut run_output =
             task.compute(&mut |part, words| on_progress(COMPUTED * model * part, words))?;
+        if run_output.seeds_stopped {
+            let (step, time_us) = (0, 0.0);
+            return Err(Error::Cancelled { step, time_us }.into());
+        }
         if let Some(wanted) = wanted {
             let mut report = |part: f64, words: &str| {
                 on_progress(COMPUTED * (model + (1.0 - model) * part), words)

@@ -6,7 +6,7 @@ use std::{
 };
 
 use percuss::{
-    Scenario,
+    Error, Scenario,
     model::{self, Control, Model},
     outcome::RunResult,
     particles::with_seed,
@@ -17,7 +17,7 @@ use percuss_report::table::Table;
 
 use crate::{failure::Failure, response::ProgressCallback, table::blocks, terminal::bold};
 
-/// Runs the packings after the first one, whose result is there.
+/// Runs the packings after the first one, whose result is there. A study that is stopped has those that are complete, and says so.
 pub(super) fn study(
     model: &dyn Model,
     scenario: &Scenario,
@@ -25,9 +25,10 @@ pub(super) fn study(
     count: u16,
     stop: &AtomicBool,
     on_progress: ProgressCallback<'_>,
-) -> Result<SeedStudy, Failure> {
+) -> Result<(SeedStudy, bool), Failure> {
     let start = scenario.options.particles.seed();
     let mut others = Vec::new();
+    let mut is_stopped = false;
     for number in 1..u64::from(count) {
         let mut report = |now: model::Progress| {
             let part = (number as f64 + now.fraction) / f64::from(count);
@@ -48,10 +49,17 @@ pub(super) fn study(
             ..Control::default()
         };
         let other = with_seed(scenario, start.saturating_add(number));
-        others.push(model::run(model, &other, &mut control)?);
+        match model::run(model, &other, &mut control) {
+            Ok(result) => others.push(result),
+            Err(Error::Cancelled { .. }) => {
+                is_stopped = true;
+                break;
+            }
+            Err(error) => return Err(error.into()),
+        }
     }
     let results: Vec<&RunResult> = std::iter::once(first).chain(&others).collect();
-    Ok(SeedStudy::new(scenario, start, &results))
+    Ok((SeedStudy::new(scenario, start, &results), is_stopped))
 }
 
 /// Table of a study.

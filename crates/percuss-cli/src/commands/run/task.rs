@@ -3,7 +3,10 @@
 use std::{
     ops::ControlFlow,
     path::{Path, PathBuf},
-    sync::{Arc, atomic::AtomicBool},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
     time::Duration,
 };
 
@@ -140,6 +143,12 @@ impl<'a> Task<'a> {
         let result = match &mut self.fields {
             Some(fields) => fields.run(&self.chosen, &self.scenario, &mut report)?,
             None => {
+                let mut report = |now: model::Progress| match report(now) {
+                    ControlFlow::Continue(()) if !self.stop.load(Ordering::Relaxed) => {
+                        ControlFlow::Continue(())
+                    }
+                    _ => ControlFlow::Break(()),
+                };
                 let mut control = Control {
                     record: self.folder.is_some() || !self.scenario.measured_curves.is_empty(),
                     progress: Some(&mut report),
@@ -151,12 +160,13 @@ impl<'a> Task<'a> {
         let (model, scenario) = (self.chosen.model, &self.scenario);
         let of_seeds =
             |count| seeds::study(model, scenario, &result, count, self.stop, on_progress);
-        let seeds = self.options.seeds.map(of_seeds).transpose()?;
+        let (seeds, seeds_stopped) = self.options.seeds.map(of_seeds).transpose()?.unzip();
         Ok(RunOutput {
             scenario: Arc::clone(&self.scenario),
             result: Arc::new(result),
             axisymmetric: None,
             seeds,
+            seeds_stopped: seeds_stopped.unwrap_or(false),
         })
     }
 
