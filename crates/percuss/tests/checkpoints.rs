@@ -215,6 +215,31 @@ fn cracks_have_the_same_bits_on_any_number_of_threads() {
     }
 }
 
+/// The end of a run is no part of its state: a checkpoint goes on to a later one, with the bits of a run that had it from the start.
+#[test]
+fn a_checkpoint_goes_on_to_a_later_end() {
+    let early = scenario(PIECES);
+    let mut late = early.clone();
+    late.options.particles.end_time = Some("45 us".parse().unwrap());
+    let bytes = interrupted("particles", &early, 2).unwrap();
+    let mut control = Control {
+        resume: Some(&bytes),
+        ..Control::recording()
+    };
+    let resumed = run("particles", &late, &mut control).unwrap();
+    let whole = run("particles", &late, &mut Control::recording()).unwrap();
+    assert!(resumed.end_time.unwrap() > 44e-6);
+    let numbers = |result: &RunResult| {
+        let state = (
+            result.residual_velocity,
+            result.largest_depth,
+            result.cracks.clone(),
+        );
+        format!("{state:?} {:?}", result.details)
+    };
+    assert_eq!(numbers(&resumed), numbers(&whole));
+}
+
 #[test]
 fn the_cases_reach_the_states_that_they_are_for() {
     let result = |index: usize| {

@@ -136,6 +136,10 @@ fn fingerprint(scenario: &Scenario) -> u64 {
         (&mut options.chain.end_time, &mut options.chain.max_steps),
         (&mut options.fdm.end_time, &mut options.fdm.max_steps),
         (&mut options.axi.end_time, &mut options.axi.max_steps),
+        (
+            &mut options.particles.end_time,
+            &mut options.particles.max_steps,
+        ),
     ] {
         *end_time = None;
         *max_steps = None;
