@@ -25,6 +25,7 @@ mod invariants;
 mod layers;
 mod long_rods;
 mod melting;
+mod notches;
 mod oblique;
 mod perforation;
 mod plastic_wave;

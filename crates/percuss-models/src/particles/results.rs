@@ -189,10 +189,18 @@ fn warnings(run: &PlaneImpact<'_>, result: &RunResult) -> Vec<String> {
     }
     let idle = run.notches.idle(&run.body);
     if !idle.is_empty() {
-        let numbers: Vec<String> = idle.iter().map(usize::to_string).collect();
         warnings.push(format!(
             "`particles.notches`: number {} cuts no bond of the body: it lies outside of it or between two particles",
-            numbers.join(", ")
+            numbered(&idle)
+        ));
+    }
+    let narrow = setup::narrow_slots(run.scenario, run.body.lattice.spacing);
+    if !narrow.is_empty() {
+        warnings.push(format!(
+            "`particles.notches`: the slot of number {} is narrower than the particles are apart, {} mm, so that its faces can touch: \
+             raise its `width` or reduce `particles.spacing`",
+            numbered(&narrow),
+            significant(run.body.lattice.spacing * 1e3, 3)
         ));
     }
     if result.outcome == Outcome::OutOfTime {
@@ -224,4 +232,9 @@ fn fracture_warnings(run: &PlaneImpact<'_>, softenings: &setup::Softenings) -> V
         );
     }
     warnings
+}
+
+fn numbered(numbers: &[usize]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(usize::to_string).collect();
+    numbers.join(", ")
 }

@@ -17,6 +17,7 @@ use crate::{
     problem::RearFaceCondition,
     scenario::{Plate, TargetBody},
     solver::{Control, limits::Limits},
+    units::Length,
 };
 
 /// Ways of a longitudinal wave across a body that breaks, after which its run ends where the case gives no time.
@@ -264,6 +265,16 @@ fn slots(scenario: &Scenario) -> Vec<Slot> {
     notches
         .filter_map(|notch| Some(Slot::new(notch.ends(), notch.width?.si())))
         .collect()
+}
+
+/// Numbers, from 1, of slots narrower than the particles are apart: their faces touch.
+pub(super) fn narrow_slots(scenario: &Scenario, spacing: f64) -> Vec<usize> {
+    let notches = scenario.options.particles.notches.iter().flatten();
+    let is_narrow = |width: Option<Length>| width.is_some_and(|width| width.si() < spacing);
+    let narrow = notches
+        .enumerate()
+        .filter(|(_, notch)| is_narrow(notch.width));
+    narrow.map(|(index, _)| index + 1).collect()
 }
 
 /// The notches of a body that is built.
