@@ -24,11 +24,18 @@ fn the_book_builds_and_every_link_leads_somewhere() {
             .flat_map(|mark| content.split(mark).skip(1))
         {
             let link = link.split('"').next().unwrap_or_default();
-            let place = link.split('#').next().unwrap_or_default();
-            if place.is_empty() || place.contains("://") {
+            let (place, part) = link.split_once('#').unwrap_or((link, ""));
+            if place.contains("://") {
                 continue;
             }
-            if !page.parent().unwrap().join(place).exists() {
+            let target = match place {
+                "" => page.clone(),
+                _ => page.parent().unwrap().join(place),
+            };
+            let has_part = part.is_empty()
+                || fs::read_to_string(&target)
+                    .is_ok_and(|text| text.contains(&format!("id=\"{part}\"")));
+            if !target.exists() || !has_part {
                 broken.push(format!("{}: {link}", page.display()));
             }
         }
