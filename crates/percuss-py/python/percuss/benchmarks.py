@@ -131,7 +131,7 @@ def benchmark(
     Examples
     --------
     >>> percuss.benchmark().findings[0]  # doctest: +SKIP
-    '71 shots have a reference that passes its convergence check on three meshes: 65 are known within 10 %.'
+    '92 cases have a reference that passes its convergence check on three meshes; the uncertainty of 81 is at most 10 %.'
     """
     found = execute(
         "benchmark",

@@ -111,7 +111,7 @@ pub struct Limit {
     #[arg(value_parser = PossibleValuesParser::new(ReferenceMeshes::ALL.map(ReferenceMeshes::name)))]
     reference: Option<String>,
     /// Leave out the axisymmetric limit
-    #[arg(long)]
+    #[arg(long, requires = "case")]
     fast: bool,
     /// CSV file of tests with partial or complete penetration
     #[arg(long, value_name = "FILE.csv")]
