@@ -1,6 +1,6 @@
 //! Field quantities of pictures.
 
-use percuss::axi::Particle;
+use percuss::{Scenario, axi::Particle, model::Model, particles};
 
 /// A field over the material points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -33,6 +33,15 @@ impl FieldQuantity {
         Self::Density,
         Self::Damage,
     ];
+
+    /// The one that shows most of a case: the damage or the stress of an elastic lattice, otherwise the plastic strain.
+    pub fn of_case(model: &dyn Model, scenario: &Scenario) -> Self {
+        match model.name() {
+            "particles" if particles::breaks(scenario) => Self::Damage,
+            "particles" => Self::VonMisesStress,
+            _ => Self::PlasticStrain,
+        }
+    }
 
     /// Its name on a command line.
     pub fn name(self) -> &'static str {

@@ -141,7 +141,7 @@ pub struct Run {
     /// No table and no progress: one line of NAME=VALUE pairs
     #[arg(long, short)]
     quiet: bool,
-    /// Field that pictures of a two-dimensional model show [default: plastic-strain]
+    /// Field that pictures of a two-dimensional model show [default: plastic-strain; of `particles` damage, or von-mises-stress where nothing breaks]
     #[arg(long, value_name = "NAME", requires = "out")]
     #[arg(value_parser = PossibleValuesParser::new(FieldQuantity::ALL.map(FieldQuantity::name)))]
     field: Option<String>,

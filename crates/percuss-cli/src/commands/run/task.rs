@@ -193,7 +193,10 @@ impl<'a> Task<'a> {
             files.extend(last.write_as(out, AXISYMMETRIC, &run_output.scenario, quantity)?);
         }
         if let Some(fields) = &mut self.fields {
-            let written = fields.write(self.options, out, &run_output.scenario, report)?;
+            let (model, scenario) = (self.chosen.model, &run_output.scenario);
+            let quantity = self.options.field.as_deref().and_then(FieldQuantity::named);
+            let quantity = quantity.unwrap_or_else(|| FieldQuantity::of_case(model, scenario));
+            let written = fields.write(self.options, quantity, out, scenario, report)?;
             files.extend(written);
             checkpoints::remove(out);
         }
@@ -265,12 +268,11 @@ impl Fields<'_> {
     fn write(
         &mut self,
         options: &Run,
+        quantity: FieldQuantity,
         out: &Path,
         scenario: &Scenario,
         report: &mut (dyn FnMut(f64, &str) + Send),
     ) -> Result<Vec<PathBuf>, Failure> {
-        let quantity = options.field.as_deref().and_then(FieldQuantity::named);
-        let quantity = quantity.unwrap_or_default();
         let mut files = Vec::new();
         if let Some(last) = self.last.take() {
             report(0.0, "drawing the field");
