@@ -24,6 +24,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("pieces of a lattice", "particles", PIECES),
     ("cracks from a notch", "particles", NOTCHED),
     ("disc", "particles", DISC),
+    ("bonds that fail by their stress", "particles", BY_STRESS),
 ];
 
 const COLUMN: &str = r#"
@@ -93,6 +94,14 @@ const DISC: &str = concat!(
     projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "20 m/s" }
     target = { material = "brittle", thickness = "10 mm", back_face = "free" }
     particles = { spacing = "0.7 mm", outline = "disc", end_time = "40 us" }
+"#,
+    hard_and_brittle!()
+);
+const BY_STRESS: &str = concat!(
+    r#"
+    projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "20 m/s", nose = "hemisphere" }
+    target = { material = "brittle", thickness = "5 mm", back_face = "free" }
+    particles = { spacing = "0.22 mm", width = "40 mm", end_time = "15 us", failure_criterion = "principal-stress" }
 "#,
     hard_and_brittle!()
 );
@@ -200,7 +209,7 @@ fn every_solver_continues_from_a_checkpoint_with_the_same_bits() {
 /// Bonds that break, pieces that meet, notches: none of it depends on how the work is shared.
 #[test]
 fn cracks_have_the_same_bits_on_any_number_of_threads() {
-    for text in [PIECES, NOTCHED, DISC] {
+    for text in [PIECES, NOTCHED, DISC, BY_STRESS] {
         let scenario = scenario(text);
         let on = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
@@ -233,7 +242,7 @@ fn a_checkpoint_goes_on_to_a_later_end() {
         let state = (
             result.residual_velocity,
             result.largest_depth,
-            result.cracks.clone(),
+            result.cracks,
         );
         format!("{state:?} {:?}", result.details)
     };

@@ -13,6 +13,7 @@ mod constants;
 mod contact_time;
 mod convergence;
 mod defaults;
+mod disc_strength;
 mod diverging;
 mod elastic_bars;
 mod eroding_rods;

@@ -36,6 +36,8 @@ pub struct ParticlesOptions {
     pub fracture: Option<bool>,
     /// Elongation at which a bond has failed over that at which it starts to soften.
     pub softening: Option<f64>,
+    /// What starts the softening of a bond.
+    pub failure_criterion: Option<FailureCriterion>,
     /// Part of the velocity with which two pieces that collide part.
     pub restitution: Option<f64>,
     /// Coefficient of friction between pieces.
@@ -57,6 +59,18 @@ pub enum Space {
     PlaneStrain,
     /// Thin plates seen from their face: no stress across the plane. Poisson's ratio up to 1/3.
     PlaneStress,
+}
+
+/// What starts the softening of a bond.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FailureCriterion {
+    /// Its own elongation and slide. Compression across the tension lowers the strength.
+    #[default]
+    Elongation,
+    /// The larger principal stress around one of its ends: the tensile strength, under any stress across the tension. For spacings that resolve
+    /// the strength.
+    PrincipalStress,
 }
 
 /// Outline of a target in the plane.
@@ -153,6 +167,8 @@ defaults! { ParticlesOptions, particles_in_schema {
     amplitude: f64 = 0.3;
     /// Seed of an irregular packing.
     seed: u64 = 1;
+    /// What starts the softening of a bond.
+    failure_criterion: FailureCriterion = FailureCriterion::Elongation;
     /// Part of the velocity with which two pieces that collide part.
     restitution: f64 = 0.9;
     /// Coefficient of friction between pieces.
@@ -266,6 +282,7 @@ impl ParticlesOptions {
         }
         for (key, given) in [
             ("softening", self.softening.is_some()),
+            ("failure_criterion", self.failure_criterion.is_some()),
             ("restitution", self.restitution.is_some()),
             ("friction", self.friction.is_some()),
         ] {

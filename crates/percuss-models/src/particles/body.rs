@@ -24,6 +24,10 @@ pub(super) struct RowState {
     /// Damage of the bonds that start in the row; empty where nothing breaks.
     #[serde(default)]
     pub(super) damage: Damage,
+    /// Sums of the products of forces and bonds of each particle a step ago, `xx`, `zz` and `xz` [N m per m]; empty where no
+    /// bond fails by its stress.
+    #[serde(default)]
+    pub(super) virial: [Vec<f64>; 3],
     /// Energy that their softening has taken [J per m].
     #[serde(default)]
     pub(super) lost: f64,
@@ -36,16 +40,25 @@ pub(super) struct Damage {
     pub(super) worst: [Vec<f64>; 3],
     /// Their deformation a step ago, in the same unit.
     pub(super) measure: [Vec<f64>; 3],
+    /// Their deformation when they started to soften by their stress, in the same unit, and 0 before; empty where they do not.
+    pub(super) start: [Vec<f64>; 3],
 }
 
 impl Damage {
     /// Whole bonds of a row of a number of places.
-    pub(super) fn new(places: usize) -> Self {
+    pub(super) fn new(places: usize, by_stress: bool) -> Self {
         let zeros = || [0, 1, 2].map(|_| vec![0.0; places]);
+        let none = <[Vec<f64>; 3]>::default;
         Self {
             worst: zeros(),
             measure: zeros(),
+            start: if by_stress { zeros() } else { none() },
         }
+    }
+
+    /// Deformation at which a bond starts to soften; by its stress 0 before it did.
+    pub(super) fn start_of(&self, kind: usize, place: usize) -> f64 {
+        self.start[kind].get(place).copied().unwrap_or(1.0)
     }
 }
 
@@ -67,6 +80,8 @@ pub(super) struct RowMake {
     pub(super) inverse_mass: Vec<f64>,
     /// One over the moment of inertia; 0 where there is no particle.
     pub(super) inverse_inertia: Vec<f64>,
+    /// One over the mass of a particle and its neighbours [m/kg]; empty where no bond fails by its stress.
+    pub(super) inverse_patch: Vec<f64>,
     /// Weights of the bonds that start in the row: half the number of triangles that share a bond, or what their dual facets are.
     pub(super) weights: [Vec<f64>; 3],
     /// The bonds at rest, where particles are moved; otherwise empty.
@@ -222,6 +237,7 @@ impl Body {
                 cosine: vec![1.0; stride],
                 sine: zeros(),
                 damage: Damage::default(),
+                virial: <[Vec<f64>; 3]>::default(),
                 lost: 0.0,
             });
             motion.push(RowMotion {
@@ -358,8 +374,21 @@ impl Body {
         control: &mut Control<'_>,
     ) -> Result<(), Error> {
         self.softening = Some(softening);
+        let by_stress = softening.by_stress;
+        for row in (0..self.rows.len()).filter(|_| by_stress) {
+            let mut patch = vec![0.0; self.stride];
+            let masses = |row: usize| self.rows[row].mass.as_slice();
+            self.add_patch(row, masses, &mut patch);
+            let inverse = |mass: f64| if mass > 0.0 { 1.0 / mass } else { 0.0 };
+            self.rows[row].inverse_patch = patch.into_iter().map(inverse).collect();
+        }
         let (stride, rows) = (self.stride, self.state.iter_mut().chain(&mut self.next));
-        control.set_up(rows, stride, |state| state.damage = Damage::new(stride))
+        control.set_up(rows, stride, |state| {
+            state.damage = Damage::new(stride, by_stress);
+            if by_stress {
+                state.virial = [0, 1, 2].map(|_| vec![0.0; stride]);
+            }
+        })
     }
 
     /// Holds the last row that has particles, as far as a distance from the axis [m].

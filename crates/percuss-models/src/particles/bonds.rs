@@ -5,6 +5,7 @@ use super::{
     fracture::Softening,
     lattice::DIRECTIONS,
 };
+use crate::lanes::larger;
 
 /// Smallest square of a bond's length, in squares of the spacing: what is no bond may have any length.
 const LEAST_SQUARE: f64 = 1e-12;
@@ -29,10 +30,19 @@ pub(super) struct BondForce {
     pub(super) energy: f64,
     /// Elongation [m].
     pub(super) elongation: f64,
-    /// Largest elongation so far, in those at which the bond starts to soften.
+    /// State of its damage.
+    pub(super) damage: BondDamage,
+}
+
+/// Deformations of both springs of a bond, in elongations at which one along the tension starts to soften.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct BondDamage {
+    /// Largest one with an elongation since it started to soften.
     pub(super) worst: f64,
-    /// Deformation of both springs, in the same unit.
+    /// Present one.
     pub(super) measure: f64,
+    /// At which it starts to soften; by the principal stress at which it did, and 0 before.
+    pub(super) start: f64,
 }
 
 /// A bond at rest.
@@ -58,13 +68,15 @@ pub(super) struct Pose {
 /// `V = ½ k_n (l − d)² + ½ k_s d² sin²γ`, where γ is the angle of the bond to its direction at rest, turned by the mean rotation of
 /// its ends. Differences of displacements alone enter, so that small strains keep all their digits.
 ///
-/// A softening bond loses the part `1 − D` of its springs, except of the normal one under pressure; `worst` is the state of its damage.
+/// A stretched bond starts to soften at its first elongation, or where the `tension` of an end, in the stress of that start, has come to 1. It then
+/// loses the part `1 − D` of its springs, except of the normal one under pressure; `before` is the state of its damage a step ago.
 #[inline(always)]
 pub(super) fn bond(
     springs: &Springs,
     softening: Option<&Softening>,
     bond: Rest,
-    worst: f64,
+    before: BondDamage,
+    tension: f64,
     a: Pose,
     b: Pose,
 ) -> BondForce {
@@ -88,15 +100,20 @@ pub(super) fn bond(
     let turned = [cosine * n_x - sine * n_z, sine * n_x + cosine * n_z];
     let sine_of_shear = (turned[0] * z - turned[1] * x - rest * sine) * inverse;
     let cosine_of_shear = turned[0] * along[0] + turned[1] * along[1];
-    let (mut worst, mut normal, mut shear) =
-        (worst, weight * springs.normal, weight * springs.shear);
-    let mut measure = 0.0;
+    let (mut normal, mut shear) = (weight * springs.normal, weight * springs.shear);
+    let mut damage = before;
     if let Some(softening) = softening {
-        measure = softening.measure(rest, elongation, rest * sine_of_shear);
-        worst = worst.max(if elongation > 0.0 { measure } else { 0.0 });
-        let integrity = softening.integrity(worst);
+        damage.measure = softening.measure(rest, elongation, rest * sine_of_shear);
+        let stretched = elongation > 0.0;
+        if softening.by_stress {
+            let starts = stretched & (tension >= 1.0) & (before.start == 0.0);
+            damage.start = if starts { damage.measure } else { before.start };
+        }
+        let softens = stretched & (damage.start > 0.0);
+        damage.worst = larger(before.worst, if softens { damage.measure } else { 0.0 });
+        let integrity = softening.integrity(damage.worst, damage.start);
         shear *= integrity;
-        normal *= if elongation > 0.0 { integrity } else { 1.0 };
+        normal *= if stretched { integrity } else { 1.0 };
     }
     let pull = normal * elongation;
     let couple = shear * rest * rest * sine_of_shear * cosine_of_shear;
@@ -110,8 +127,7 @@ pub(super) fn bond(
         energy: 0.5 * pull * elongation
             + 0.5 * shear * (rest * sine_of_shear) * (rest * sine_of_shear),
         elongation,
-        worst,
-        measure,
+        damage,
     }
 }
 
@@ -121,15 +137,19 @@ pub(super) struct Forces {
     pub(super) x: Vec<f64>,
     pub(super) z: Vec<f64>,
     pub(super) moment: Vec<f64>,
+    /// Products of forces and the bonds along which they act, `xx`, `zz` and the mean of `xz` and `zx` [N m per m]; empty where no bond fails by
+    /// its stress.
+    pub(super) virial: [Vec<f64>; 3],
 }
 
 impl Forces {
-    pub(super) fn new(stride: usize) -> Self {
+    pub(super) fn new(stride: usize, by_stress: bool) -> Self {
         let zeros = || vec![0.0; stride];
         Self {
             x: zeros(),
             z: zeros(),
             moment: zeros(),
+            virial: [0, 1, 2].map(|_| if by_stress { zeros() } else { Vec::new() }),
         }
     }
 }
@@ -143,11 +163,12 @@ pub(super) struct RowForces {
 
 impl RowForces {
     /// Without forces, for rows of a number of places.
-    pub(super) fn new(stride: usize, softens: bool) -> Self {
-        let places = if softens { stride } else { 0 };
+    pub(super) fn new(stride: usize, softening: Option<&Softening>) -> Self {
+        let places = if softening.is_some() { stride } else { 0 };
+        let by_stress = softening.is_some_and(|law| law.by_stress);
         Self {
-            of: [0, 1, 2].map(|_| Forces::new(stride)),
-            damage: Damage::new(places),
+            of: [0, 1, 2].map(|_| Forces::new(stride, by_stress)),
+            damage: Damage::new(places, by_stress),
         }
     }
 }
@@ -162,32 +183,40 @@ pub(super) struct Pair<'a> {
     pub(super) make: &'a RowMake,
     pub(super) row: &'a RowState,
     pub(super) next: &'a RowState,
+    /// Larger principal stresses around the particles of both; empty where no bond fails by its stress.
+    pub(super) tension: [&'a [f64]; 2],
 }
 
 impl Pair<'_> {
     /// Forces between a row and itself and the next one.
     #[inline(always)]
     pub(super) fn compute(&self, forces: &mut RowForces) {
-        // Four loops: what a body has not costs nothing.
-        match (self.softening.is_some(), self.make.is_moved()) {
-            (false, false) => self.kinds::<false, false>(forces),
-            (false, true) => self.kinds::<false, true>(forces),
-            (true, false) => self.kinds::<true, false>(forces),
-            (true, true) => self.kinds::<true, true>(forces),
+        // Six loops: what a body has not costs nothing.
+        let by_stress = self.softening.map(|law| law.by_stress);
+        match (by_stress, self.make.is_moved()) {
+            (None, false) => self.kinds::<false, false, false>(forces),
+            (None, true) => self.kinds::<false, false, true>(forces),
+            (Some(false), false) => self.kinds::<true, false, false>(forces),
+            (Some(false), true) => self.kinds::<true, false, true>(forces),
+            (Some(true), false) => self.kinds::<true, true, false>(forces),
+            (Some(true), true) => self.kinds::<true, true, true>(forces),
         }
     }
 
     #[inline(always)]
-    fn kinds<const SOFTENS: bool, const MOVED: bool>(&self, forces: &mut RowForces) {
+    fn kinds<const SOFTENS: bool, const BY_STRESS: bool, const MOVED: bool>(
+        &self,
+        forces: &mut RowForces,
+    ) {
         let odd = self.odd;
-        self.kind::<SOFTENS, MOVED>((0, 2), self.row, forces);
-        self.kind::<SOFTENS, MOVED>((1, 1 + odd), self.next, forces);
-        self.kind::<SOFTENS, MOVED>((2, odd), self.next, forces);
+        self.kind::<SOFTENS, BY_STRESS, MOVED>((0, 2), self.row, forces);
+        self.kind::<SOFTENS, BY_STRESS, MOVED>((1, 1 + odd), self.next, forces);
+        self.kind::<SOFTENS, BY_STRESS, MOVED>((2, odd), self.next, forces);
     }
 
     /// One kind of bonds along a row: the second particle of the first bond stands at `start` of the other row.
     #[inline(always)]
-    fn kind<const SOFTENS: bool, const MOVED: bool>(
+    fn kind<const SOFTENS: bool, const BY_STRESS: bool, const MOVED: bool>(
         &self,
         (kind, start): (usize, usize),
         other: &RowState,
@@ -209,10 +238,26 @@ impl Pair<'_> {
         let rests = &make.rests[kind];
         let moved = |array| inside::<MOVED>(array, count);
         let (nx, nz, lengths) = (moved(&rests.x), moved(&rests.z), moved(&rests.length));
-        let before = inside::<SOFTENS>(&row.damage.worst[kind], count);
-        let after = inside_mut::<SOFTENS>(&mut damage.worst[kind], count);
+        let (worst, began) = (
+            inside::<SOFTENS>(&row.damage.worst[kind], count),
+            inside::<BY_STRESS>(&row.damage.start[kind], count),
+        );
+        let worsts = inside_mut::<SOFTENS>(&mut damage.worst[kind], count);
         let measures = inside_mut::<SOFTENS>(&mut damage.measure[kind], count);
-        let softening = if SOFTENS { self.softening } else { None };
+        let starts = inside_mut::<BY_STRESS>(&mut damage.start[kind], count);
+        let [xx, zz, xz] = forces
+            .virial
+            .each_mut()
+            .map(|virial| inside_mut::<BY_STRESS>(virial, count));
+        let tension = inside::<BY_STRESS>(self.tension[0], count);
+        let other_tension = match BY_STRESS {
+            true => &self.tension[usize::from(kind > 0)][start..][..count],
+            false => &[],
+        };
+        // Known here, it costs the loops nothing.
+        let by_stress = BY_STRESS;
+        let softening = self.softening.map(|law| law.with_criterion(by_stress));
+        let softening = if SOFTENS { softening.as_ref() } else { None };
         for i in 0..count {
             let a = Pose {
                 displacement: [ax[i], az[i]],
@@ -231,14 +276,27 @@ impl Pair<'_> {
                 length,
                 weight: weights[i],
             };
-            let worst = if SOFTENS { before[i] } else { 0.0 };
-            let found = bond(self.springs, softening, rest, worst, a, b);
-            fx[i] = found.force[0];
-            fz[i] = found.force[1];
-            moment[i] = found.moment;
+            let (mut damage, mut largest) = (BondDamage::default(), 0.0);
             if SOFTENS {
-                after[i] = found.worst;
-                measures[i] = found.measure;
+                (damage.worst, damage.start) = (worst[i], 1.0);
+            }
+            if BY_STRESS {
+                damage.start = began[i];
+                largest = larger(tension[i], other_tension[i]);
+            }
+            let found = bond(self.springs, softening, rest, damage, largest, a, b);
+            let [x, z] = found.force;
+            (fx[i], fz[i], moment[i]) = (x, z, found.moment);
+            if SOFTENS {
+                worsts[i] = found.damage.worst;
+                measures[i] = found.damage.measure;
+            }
+            if BY_STRESS {
+                starts[i] = found.damage.start;
+                let [along_x, along_z] = direction.map(|part| part * length);
+                xx[i] = x * along_x;
+                zz[i] = z * along_z;
+                xz[i] = 0.5 * (x * along_z + z * along_x);
             }
         }
     }

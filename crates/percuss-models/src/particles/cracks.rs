@@ -215,7 +215,11 @@ impl Body {
         };
         let bonds: Vec<Bond> = self.crossed(cut).collect();
         for (row, place, kind) in bonds {
-            self.state[row].damage.worst[kind][place] = end;
+            let damage = &mut self.state[row].damage;
+            damage.worst[kind][place] = end;
+            if let Some(start) = damage.start[kind].get_mut(place) {
+                *start = 1.0;
+            }
         }
     }
 

@@ -82,13 +82,15 @@ impl Body {
             let (old, new) = (&before.worst[kind], &damage.worst[kind]);
             for place in 1..self.stride - 1 {
                 // Few bonds soften in a step.
-                if new[place] <= old[place] || new[place] <= 1.0 {
+                let start = damage.start_of(kind, place);
+                if new[place] <= old[place] || new[place] <= start {
                     continue;
                 }
                 let rest = self.rest(row, place, kind);
                 let normal = rest.weight * self.lattice.normal;
-                let from = [before.measure[kind][place], old[place]];
-                let to = [damage.measure[kind][place], new[place]];
+                let left = [old[place], new[place]].map(|worst| softening.integrity(worst, start));
+                let from = [before.measure[kind][place], left[0]];
+                let to = [damage.measure[kind][place], left[1]];
                 lost += softening.taken(rest.length, normal, from, to);
             }
         }

@@ -104,6 +104,16 @@ pub(super) fn poissons_ratio_refusal(space: Space, ratio: f64, id: &str) -> Opti
 }
 
 impl Lattice {
+    /// Stress over strain of a body that is free to contract in its plane [Pa].
+    pub(super) fn plane_modulus(&self) -> f64 {
+        let density = self.mass / (ROW * self.spacing * self.spacing);
+        let ratio = self.shear / self.normal;
+        // λ' + 2μ = ρ c², and k_s/k_n = (μ − λ')/(μ + λ').
+        let second = density * self.wave_speed * self.wave_speed * (1.0 + ratio) / (3.0 + ratio);
+        let first = second * (1.0 - ratio) / (1.0 + ratio);
+        4.0 * second * (first + second) / (first + 2.0 * second)
+    }
+
     /// Largest angular frequency of all plane waves [rad/s].
     pub(super) fn largest_frequency(&self) -> f64 {
         let step = 2.0 * std::f64::consts::PI / f64::from(SCAN);

@@ -21,7 +21,7 @@ mod survey;
 #[cfg(test)]
 mod tests;
 
-pub use crate::options::{PackingKind, ParticlesOptions, Space};
+pub use crate::options::{FailureCriterion, PackingKind, ParticlesOptions, Space};
 
 use crate::{
     Error, Refusal, Scenario,
@@ -44,6 +44,11 @@ pub struct Particles;
 /// Number of particles of a case.
 pub fn particles(scenario: &Scenario) -> f64 {
     setup::extent(scenario).particles()
+}
+
+/// Whether bonds of a case break.
+pub fn breaks(scenario: &Scenario) -> bool {
+    setup::toughness(scenario).is_some()
 }
 
 /// Whether the packing of a case has random numbers.

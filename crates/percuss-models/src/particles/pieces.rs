@@ -1,6 +1,6 @@
 //! What cracks make of a body: damage of its particles, and its pieces.
 
-use super::body::Body;
+use super::{body::Body, bonds::BondDamage};
 use crate::fragments::Fragment;
 
 /// A piece of a body that no bond holds to the rest.
@@ -61,9 +61,22 @@ impl Piece {
 impl Body {
     /// Whether a bond carries no tension any more.
     pub(super) fn is_broken(&self, (row, place, kind): (usize, usize, usize)) -> bool {
-        let end = self.softening.map_or(f64::INFINITY, |law| law.end);
-        let worst = self.state[row].damage.worst[kind].get(place);
-        worst.is_some_and(|worst| *worst >= end)
+        let Some(law) = &self.softening else {
+            return false;
+        };
+        let damage = &self.state[row].damage;
+        let (worst, start) = (damage.worst[kind][place], damage.start_of(kind, place));
+        start > 0.0 && worst >= law.end_of(start)
+    }
+
+    /// Damage of a bond a step ago.
+    pub(super) fn damage_of(&self, (row, place, kind): (usize, usize, usize)) -> BondDamage {
+        let damage = &self.state[row].damage;
+        BondDamage {
+            worst: damage.worst[kind][place],
+            measure: damage.measure[kind][place],
+            start: damage.start_of(kind, place),
+        }
     }
 
     /// The bonds of a particle, by their first one, place and kind.
@@ -91,10 +104,10 @@ impl Body {
         };
         let (mut all, mut left) = (0.0, 0.0);
         for bond in self.bonds_of(row, place).into_iter().flatten() {
-            let (row, place, kind) = bond;
             let weight = self.weight(bond);
             all += weight;
-            left += weight * law.integrity(self.state[row].damage.worst[kind][place]);
+            let damage = self.damage_of(bond);
+            left += weight * law.integrity(damage.worst, damage.start);
         }
         if all > 0.0 { 1.0 - left / all } else { 0.0 }
     }

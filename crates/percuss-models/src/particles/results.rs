@@ -1,6 +1,12 @@
 //! Samples, outcome and results of a run.
 
-use super::{fields, fracture::LEAST_SOFTENING, run::PlaneImpact, setup, shape::Rigid};
+use super::{
+    fields,
+    fracture::{LEAST_BY_STRESS, LEAST_SOFTENING},
+    run::PlaneImpact,
+    setup,
+    shape::Rigid,
+};
 use crate::{
     history::{ElementState, Sample},
     options::Space,
@@ -223,6 +229,14 @@ fn fracture_warnings(run: &PlaneImpact<'_>, softenings: &setup::Softenings) -> V
              both, and those of this run are {} mm apart; set `particles.spacing` where that can be computed",
             significant(fitting, 2),
             significant(spacing, 3)
+        ));
+    }
+    let by_stress = run.body.softening.filter(|law| law.by_stress);
+    if by_stress.is_some_and(|law| law.end < LEAST_BY_STRESS) {
+        warnings.push(format!(
+            "`particles.failure_criterion`: with a softening below {} the energy that a crack takes by the principal stress grows with the size of \
+             the body; the strength does not: reduce `particles.spacing`, or give \"elongation\" where cracks start at notches",
+            LEAST_BY_STRESS
         ));
     }
     if run.body.broken_bonds() > 0 {

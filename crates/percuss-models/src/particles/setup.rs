@@ -4,7 +4,7 @@ use super::{
     body::{Body, Rows},
     cracks::Notches,
     debris::ContactLaw,
-    fracture::{self, LEAST_SOFTENING, Softening, Toughness},
+    fracture::{self, BondKind, LEAST_SOFTENING, Softening, Toughness},
     lattice::{Lattice, ROW, Solid, poissons_ratio_refusal},
     packing::{Moved, Packing},
     shape::{Rigid, Shape},
@@ -200,6 +200,13 @@ pub(super) fn packing(scenario: &Scenario) -> Packing {
     }
 }
 
+fn bonds(scenario: &Scenario) -> BondKind {
+    BondKind {
+        irregular: packing(scenario) != Packing::Hexagonal,
+        criterion: scenario.options.particles.failure_criterion(),
+    }
+}
+
 fn solid(scenario: &Scenario) -> Solid {
     let (material, _) = material(scenario);
     Solid {
@@ -219,9 +226,8 @@ pub(super) struct Softenings {
 pub(super) fn softenings(scenario: &Scenario, lattice: &Lattice) -> Option<Softenings> {
     let toughness = toughness(scenario)?;
     let options = &scenario.options.particles;
-    let irregular = packing(scenario) != Packing::Hexagonal;
     let solid = (solid(scenario), options.space());
-    let exact = fracture::exact_softening(solid, lattice, toughness, irregular);
+    let exact = fracture::exact_softening(solid, lattice, toughness, bonds(scenario));
     let auto = exact.clamp(LEAST_SOFTENING, fracture::LARGEST_SOFTENING);
     Some(Softenings {
         used: options.softening.unwrap_or(auto),
@@ -314,8 +320,8 @@ pub(super) fn build(
     if let (Some(toughness), Some(softenings)) =
         (toughness(scenario), softenings(scenario, &lattice))
     {
-        let irregular = packing != Packing::Hexagonal;
-        let softening = Softening::new(&lattice, toughness.energy, softenings.used, irregular);
+        let bonds = bonds(scenario);
+        let softening = Softening::new(&lattice, toughness.energy, softenings.used, bonds);
         body.soften(softening, control)?;
     }
     for ends in notch_ends(scenario) {

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use super::{
     body::{Body, RowMake, RowMotion, RowState},
-    bonds::{BondForce, Forces, Pair, Pose, Rest, RowForces, Springs, bond, offset},
-    lattice::DIRECTIONS,
+    bonds::{BondDamage, BondForce, Forces, Pair, Pose, Rest, RowForces, Springs, bond, offset},
+    lattice::{DIRECTIONS, Lattice, ROW},
 };
 use crate::{Error, random::unit, solver::Control};
 
@@ -36,13 +36,20 @@ impl Forces {
         let [along, right, left] = &own.of;
         let [_, from_left, from_right] = &above.of;
         let count = self.x.len() - 2;
+        let [xx, zz, xz] = self.virial.each_mut();
         // The row above has the other parity: its bonds to the right start `1 − odd` places before, those to the left one place later.
         let (first, second) = (odd, odd + 1);
         for (total, of, sign) in [
             (&mut self.x, (|f| &f.x) as fn(&Forces) -> &Vec<f64>, -1.0),
             (&mut self.z, |f| &f.z, -1.0),
             (&mut self.moment, |f| &f.moment, 1.0),
+            (xx, |f| &f.virial[0], 1.0),
+            (zz, |f| &f.virial[1], 1.0),
+            (xz, |f| &f.virial[2], 1.0),
         ] {
+            if total.is_empty() {
+                continue;
+            }
             let total = &mut total[1..][..count];
             let (a, before) = (&of(along)[1..][..count], &of(along)[..count]);
             let (b, c) = (&of(right)[1..][..count], &of(left)[1..][..count]);
@@ -104,6 +111,7 @@ impl pulp::NullaryFnOnce for Slice<'_> {
                 // What was the row's own is what is above the next one.
                 std::mem::swap(&mut state.damage, &mut forces.above.damage);
                 state.lost = body.state[row].lost + forces.lost;
+                std::mem::swap(&mut state.virial, &mut forces.total.virial);
             }
         }
         support
@@ -117,26 +125,46 @@ pub(super) struct Sweep {
     pub(super) total: Forces,
     /// Energy that the softening of the row's bonds takes in the step that ends now [J per m].
     pub(super) lost: f64,
+    /// Larger principal stresses around the particles of the row and of the next one; empty where no bond fails by its
+    /// stress.
+    tension: [Vec<f64>; 2],
+    virial: [Vec<f64>; 3],
 }
 
 impl Sweep {
     #[inline(always)]
     pub(super) fn new(body: &Body, springs: &Springs, first: usize) -> Self {
-        let mut above = RowForces::new(body.stride, body.softening.is_some());
+        let by_stress = body.softening.is_some_and(|law| law.by_stress);
+        let places = if by_stress { body.stride } else { 0 };
+        let zeros = || vec![0.0; places];
+        let mut above = RowForces::new(body.stride, body.softening.as_ref());
+        let (mut tension, mut virial) = ([zeros(), zeros()], [zeros(), zeros(), zeros()]);
         if first > 0 {
-            body.row_forces(springs, first - 1, &mut above);
+            if by_stress {
+                body.tension(first - 1, &mut virial, &mut tension[0]);
+                body.tension(first, &mut virial, &mut tension[1]);
+            }
+            body.row_forces(springs, first - 1, &tension, &mut above);
+        } else if by_stress {
+            body.tension(0, &mut virial, &mut tension[1]);
         }
         Self {
+            tension,
+            virial,
             above,
-            own: RowForces::new(body.stride, body.softening.is_some()),
-            total: Forces::new(body.stride),
+            own: RowForces::new(body.stride, body.softening.as_ref()),
+            total: Forces::new(body.stride, by_stress),
             lost: 0.0,
         }
     }
 
     #[inline(always)]
     pub(super) fn next(&mut self, body: &Body, springs: &Springs, row: usize, loads: &[Load]) {
-        body.row_forces(springs, row, &mut self.own);
+        self.tension.swap(0, 1);
+        if !self.tension[1].is_empty() {
+            body.tension(row + 1, &mut self.virial, &mut self.tension[1]);
+        }
+        body.row_forces(springs, row, &self.tension, &mut self.own);
         self.total.sum(row % 2, &self.own, &self.above);
         let start = loads.partition_point(|load| load.row < row);
         for load in loads[start..].iter().take_while(|load| load.row == row) {
@@ -167,7 +195,13 @@ impl Body {
 
     /// Forces of the bonds that start in a row.
     #[inline(always)]
-    fn row_forces(&self, springs: &Springs, row: usize, forces: &mut RowForces) {
+    fn row_forces(
+        &self,
+        springs: &Springs,
+        row: usize,
+        tension: &[Vec<f64>; 2],
+        forces: &mut RowForces,
+    ) {
         let own = &self.state[row];
         // The last row has no bonds to a next one: their weights are 0.
         let next = self.state.get(row + 1).unwrap_or(own);
@@ -178,8 +212,61 @@ impl Body {
             make: &self.rows[row],
             row: own,
             next,
+            tension: tension.each_ref().map(Vec::as_slice),
         };
         pair.compute(forces);
+    }
+
+    /// Adds numbers of the particles of a row and of their neighbours.
+    #[inline(always)]
+    pub(super) fn add_patch<'a>(
+        &'a self,
+        row: usize,
+        numbers: impl Fn(usize) -> &'a [f64],
+        sums: &mut [f64],
+    ) {
+        let (odd, count) = (row % 2, self.stride - 2);
+        let sums = &mut sums[1..][..count];
+        for (row, from) in [
+            (Some(row), 0),
+            (Some(row), 1),
+            (Some(row), 2),
+            (row.checked_sub(1), odd),
+            (row.checked_sub(1), odd + 1),
+            (Some(row + 1), odd),
+            (Some(row + 1), odd + 1),
+        ] {
+            if let Some(row) = row.filter(|row| *row < self.rows.len()) {
+                let own = &numbers(row)[from..][..count];
+                for i in 0..count {
+                    sums[i] += own[i];
+                }
+            }
+        }
+    }
+
+    /// Larger principal stress around the particles of a row, in that at which bonds start to soften.
+    #[inline(always)]
+    fn tension(&self, row: usize, virial: &mut [Vec<f64>; 3], tension: &mut [f64]) {
+        let Some(softening) = self.softening.as_ref().filter(|_| row < self.rows.len()) else {
+            tension.fill(0.0);
+            return;
+        };
+        for (k, sums) in virial.iter_mut().enumerate() {
+            sums.fill(0.0);
+            self.add_patch(row, |row| &self.state[row].virial[k], sums);
+        }
+        let Lattice { mass, spacing, .. } = self.lattice;
+        // Half of each bond belongs to a particle, whose area is in proportion to its mass.
+        let scale = 0.5 * mass / (ROW * spacing * spacing * softening.strength);
+        let count = tension.len();
+        let inverse_mass = &self.rows[row].inverse_patch[..count];
+        let [xx, zz, xz] = virial.each_ref().map(|sum| &sum[..count]);
+        for i in 0..count {
+            let (mean, half) = (0.5 * (xx[i] + zz[i]), 0.5 * (xx[i] - zz[i]));
+            let largest = mean + (half * half + xz[i] * xz[i]).sqrt();
+            tension[i] = scale * inverse_mass[i] * largest;
+        }
     }
 
     /// Advances all particles by a step [s] under the loads of contacts, which are in the order of the rows; returns the impulse on the
@@ -289,11 +376,12 @@ impl Body {
         };
         let (a, b) = (pose(row, place), pose(other_row, other));
         let (softening, rest) = (self.softening.as_ref(), self.rest(row, place, kind));
-        let worst = match softening {
-            Some(_) => self.state[row].damage.worst[kind][place],
-            None => 0.0,
+        let damage = match softening {
+            Some(_) => self.damage_of((row, place, kind)),
+            None => BondDamage::default(),
         };
-        bond(&self.springs(), softening, rest, worst, a, b)
+        // A bond that starts to soften now has all of its springs.
+        bond(&self.springs(), softening, rest, damage, 0.0, a, b)
     }
 
     /// A bond at rest.

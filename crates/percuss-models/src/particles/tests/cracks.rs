@@ -4,11 +4,11 @@ use std::f64::consts::PI;
 
 use super::{solid, strip};
 use crate::{
-    options::Space,
+    options::{FailureCriterion, Space},
     particles::{
         body::{Body, Rows},
         cracks::{Front, Notches},
-        fracture::Softening,
+        fracture::{BondKind, Softening},
         lattice::ROW,
         packing::Packing,
         slot::Slot,
@@ -16,6 +16,10 @@ use crate::{
     solver::Control,
 };
 
+const REGULAR: BondKind = BondKind {
+    irregular: false,
+    criterion: FailureCriterion::Elongation,
+};
 const SPACE: Space = Space::PlaneStress;
 const RATIO: f64 = 0.22;
 /// Spacing of [`strip`] [m].
@@ -29,7 +33,7 @@ fn brittle() -> Body {
 }
 
 fn soften(body: &mut Body) {
-    let law = Softening::new(&body.lattice, 20.0, 3.0, false);
+    let law = Softening::new(&body.lattice, 20.0, 3.0, REGULAR);
     body.soften(law, &mut Control::default()).unwrap();
 }
 
