@@ -5,6 +5,8 @@ const NODES: f32 = 2.0;
 /// Reach of a particle, in sizes of the particle, within which it closes gaps to its neighbours in stretched material. What that
 /// adds at a surface is taken away again, except the half size that belongs to the particle.
 const REACH: f32 = 2.4;
+/// That of a lattice, whose bonds hardly stretch: slots and open cracks stay open.
+const REACH_OF_LATTICE: f32 = 0.95;
 const OWN: f32 = 0.5;
 /// Distances are followed this many nodes beyond where they are needed, so that they can be interpolated.
 const BEYOND: f32 = 1.5;
@@ -24,12 +26,13 @@ pub(super) struct Layer {
 }
 
 impl Layer {
-    /// An empty one for a picture of columns and rows of pixels, with particles of a size.
-    pub(super) fn new((columns, rows): (usize, usize), size: f32) -> Self {
+    /// An empty one for a picture of columns and rows of pixels, with particles of a size, of a lattice or not.
+    pub(super) fn new((columns, rows): (usize, usize), size: f32, is_lattice: bool) -> Self {
         let spacing = (size / NODES).max(1.0);
         let nodes = |pixels: usize| (pixels as f32 / spacing).ceil() as usize + 2;
         let (columns, rows) = (nodes(columns), nodes(rows));
-        let reach = (REACH * size).max(1.5);
+        let reach = if is_lattice { REACH_OF_LATTICE } else { REACH };
+        let reach = (reach * size).max(1.5);
         Self {
             columns,
             rows,
