@@ -59,3 +59,13 @@ export function download(name: string, content: BlobPart, type: string): void {
   link.click();
   setTimeout(() => URL.revokeObjectURL(address), 1000);
 }
+
+// Scrolls to an element, and keeps it there while what stands above it still grows; a hand on the page ends that.
+export function bring(element: HTMLElement): void {
+  element.scrollIntoView();
+  const growth = new ResizeObserver(() => element.scrollIntoView());
+  growth.observe(document.body);
+  const end = (): void => growth.disconnect();
+  for (const kind of ["wheel", "keydown", "pointerdown", "touchstart"]) addEventListener(kind, end, { once: true });
+  setTimeout(end, 5000);
+}

@@ -5,7 +5,7 @@ import "./app.css";
 import { Refused, follow, post, postForFile } from "./api";
 import { ChartView } from "./charts";
 import { onThemeChange } from "./colors";
-import { button, download, get, make, pairs } from "./dom";
+import { bring, button, download, get, make, pairs } from "./dom";
 import { Form, type Edit } from "./form";
 import { fromFragment, toFragment } from "./link";
 import { Numbers } from "./parameters";
@@ -256,7 +256,7 @@ function build(): void {
     ask();
   });
   text.addEventListener("input", () => ask());
-  get("to-studies").addEventListener("click", () => get("studies-title").scrollIntoView());
+  get("to-studies").addEventListener("click", () => bring(get("studies-title")));
   get("validation").addEventListener("click", () => void validate());
   get("link").addEventListener("click", () => {
     void navigator.clipboard?.writeText(location.href).then(

@@ -1,4 +1,4 @@
-// List of studies.
+// Studies, each in a tab.
 
 import { calibration } from "./calibrate";
 import { make, pairs } from "./dom";
@@ -6,6 +6,7 @@ import { panel, type Kind, type Page, type Views } from "./panel";
 import type { Numbers } from "./parameters";
 import { sweep } from "./sweep";
 import { convergence, limits } from "./tables";
+import { tabs } from "./tabs";
 import type { Answer, Convergence, Limits } from "./types";
 import { uncertainty } from "./uncertain";
 
@@ -52,5 +53,5 @@ export function studies(page: Page, numbers: Numbers, views: Views): HTMLElement
       show: (done) => (done as Answer).rows.map((rows) => make("dl", {}, ...pairs(rows))),
     },
   ];
-  return kinds.map((kind) => panel(kind, views, page));
+  return tabs("Studies", kinds.map((kind) => kind.title), kinds.map((kind) => panel(kind, views, page)));
 }

@@ -80,6 +80,7 @@ for (const colorScheme of ["light", "dark"]) {
     await page.locator("#comparison-body table").waitFor();
     assert.deepEqual(await page.evaluate(contrasts), []);
     // A study that is refused.
+    await page.getByRole("tab", { name: "Calibrate" }).click();
     await page.getByRole("button", { name: "Calibrate" }).click();
     await page.locator(".study .problem").waitFor();
     assert.deepEqual(await page.evaluate(contrasts), []);
@@ -90,6 +91,34 @@ for (const colorScheme of ["light", "dark"]) {
     await page.context().close();
   });
 }
+
+test("the studies are tabs that the arrow keys walk", async () => {
+  const page = await open();
+  const list = page.getByRole("tablist", { name: "Studies" });
+  const heads = list.getByRole("tab");
+  const chosen = () => list.locator("[aria-selected=true]").innerText();
+  const seen = () => page.locator("[role=tabpanel]").evaluateAll((all) => all.filter((one) => one.checkVisibility()).map((one) => one.getAttribute("aria-labelledby")));
+  const [first, ...others] = await heads.allInnerTexts();
+  assert.ok(others.length >= 6, others.join());
+  assert.equal(await chosen(), first);
+  await heads.first().focus();
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await chosen(), others[0]);
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), others[0]);
+  assert.deepEqual(await seen(), ["studies-1-tab"]);
+  await page.keyboard.press("End");
+  assert.equal(await chosen(), others.at(-1));
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await chosen(), first);
+  await page.keyboard.press("ArrowLeft");
+  assert.equal(await chosen(), others.at(-1));
+  await page.keyboard.press("Home");
+  assert.equal(await chosen(), first);
+  assert.equal(await list.locator("[tabindex='0']").count(), 1);
+  const heights = await heads.evaluateAll((all) => all.map((one) => one.getBoundingClientRect().height));
+  assert.ok(heights.every((height) => height >= 44), heights.join());
+  await page.context().close();
+});
 
 test("the browser had nothing to complain about", () => {
   assert.deepEqual(complaints, []);

@@ -48,7 +48,7 @@ async function pictured(name, title, example, prepare, says, height = 900) {
   await page.locator("#cases").selectOption(example);
   await answered(page, 2);
   await page.locator("#comparison-body table").waitFor();
-  const of = study(page, title);
+  const of = await study(page, title);
   await prepare(of, page);
   await of.getByRole("button", { name: title, exact: true }).click();
   await of.getByText(says).first().waitFor({ timeout: 120_000 });

@@ -16,7 +16,7 @@ test("a study shows its progress and can be cancelled", async () => {
     await answered(page, 2);
     // Models side by side take the only place first.
     await page.locator("#comparison-body table").waitFor();
-    const convergence = study(page, "Convergence");
+    const convergence = await study(page, "Convergence");
     await convergence.getByRole("button", { name: "Convergence" }).click();
     await page.waitForFunction(() => [...document.querySelectorAll("progress")].some((bar) => bar.value > 0));
     await convergence.getByRole("button", { name: "Cancel" }).click();
@@ -43,7 +43,7 @@ test("studies come to an end with tables, curves and files", async () => {
 
 // What an analysis of the page came to.
 const analysis = async (page, done) => {
-  const of = study(page, "Uncertainty");
+  const of = await study(page, "Uncertainty");
   await of.getByRole("button", { name: "Uncertainty" }).click();
   await of.getByText(done).first().waitFor({ timeout: 120_000 });
   return of;
@@ -63,7 +63,7 @@ test("uncertainty has the numbers of the command line", async () => {
   const page = await open();
   await page.locator("#text").fill(coarse);
   await answered(page, 2);
-  const of = study(page, "Uncertainty");
+  const of = await study(page, "Uncertainty");
   await of.getByLabel("samples").selectOption("64");
   await of.getByLabel("seed").fill("5");
   await analysis(page, "The spread is that of the inputs");

@@ -52,4 +52,8 @@ export const answered = (page, times) =>
   page.waitForFunction((n) => Number(document.documentElement.dataset.answers ?? 0) >= n, times);
 export const pixels = (page, chart) =>
   page.locator(`figure[data-chart="${chart}"] canvas`).first().evaluate((canvas) => canvas.toDataURL());
-export const study = (page, name) => page.locator(".study", { has: page.locator(`button:text-is("${name}")`) });
+// The panel of a study, brought into view by its tab.
+export const study = async (page, name) => {
+  await page.getByRole("tab", { name, exact: true }).click();
+  return page.getByRole("tabpanel", { name, exact: true });
+};

@@ -38,7 +38,7 @@ const flat = (text) => text.replaceAll(/[\s│]+/g, " ");
 
 test("a sweep of two numbers shows curves, a map, rows and files that the command takes", async () => {
   const page = await shows(coarse);
-  const of = study(page, "Sweep");
+  const of = await study(page, "Sweep");
   assert.equal(await of.getByLabel("from", { exact: true }).inputValue(), "184 m/s");
   await of.getByLabel("from", { exact: true }).fill("150 m/s");
   await of.getByLabel("to", { exact: true }).fill("400 m/s");
@@ -79,7 +79,7 @@ test("a sweep of two numbers shows curves, a map, rows and files that the comman
 
 test("a sweep is cancelled, and bad input is answered in the words of the command", async () => {
   const page = await shows(readFileSync(join(root, "cases/paper-table1/scenario.toml"), "utf8").replace("= 80", "= 800"));
-  const of = study(page, "Sweep");
+  const of = await study(page, "Sweep");
   await of.getByLabel("values", { exact: true }).fill("4000");
   await start(of, "Sweep");
   await of.locator("progress").waitFor();
@@ -110,7 +110,7 @@ test("a sweep is cancelled, and bad input is answered in the words of the comman
 
 test("a calibration shows its values, and the command prints the same", async () => {
   const page = await shows(taylor, "wilkins_guinan");
-  const of = study(page, "Calibrate");
+  const of = await study(page, "Calibrate");
   await of.getByLabel("number", { exact: true }).selectOption("materials.copper.strength.power_law.coefficient");
   await of.getByLabel("from", { exact: true }).fill("200 MPa");
   await of.getByLabel("to", { exact: true }).fill("900 MPa");
@@ -137,7 +137,7 @@ test("a calibration shows its values, and the command prints the same", async ()
 
 test("a calibration of a case without measured values says so", async () => {
   const page = await shows(coarse);
-  const of = study(page, "Calibrate");
+  const of = await study(page, "Calibrate");
   await start(of, "Calibrate");
   await of.getByText("the case has no measured value").waitFor();
   await page.context().close();
