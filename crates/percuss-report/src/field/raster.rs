@@ -230,6 +230,32 @@ mod tests {
         assert_eq!((at(55), at(130)), ([255; 3], [255; 3]));
     }
 
+    /// A plane projectile on a plane target with a slot 1.6 particles wide: gaps of the target stay open, those of the projectile are closed.
+    #[test]
+    fn slots_of_a_plane_target_stay_open() {
+        let mut points = Points::default();
+        for (body, depths) in [(0_u8, -20..0), (1, 0..20)] {
+            for depth in depths {
+                for column in (-30..30).filter(|column| *column != 0) {
+                    let aside = if column > 0 { 0.3 } else { -0.3 };
+                    points
+                        .places
+                        .push([column as f32 + aside, depth as f32 + 0.5]);
+                    points.bodies.push(body);
+                    points.sizes.push(1.0);
+                    points.values.push(7.0);
+                }
+            }
+        }
+        let view = View {
+            radius: 50.0,
+            depth: (-50.0, 50.0),
+        };
+        let picture = draw(&points, view, (200, 200), &Plain);
+        let at = |depth: usize| picture.pixels[(100 + 2 * depth - 20) * 200 + 100];
+        assert_eq!((at(0), at(20)), ([200, 0, 7], [255; 3]));
+    }
+
     #[test]
     fn bodies_have_their_size_without_gaps_even_where_they_are_stretched() {
         for stretch in [1.0, 2.0] {
