@@ -1,6 +1,7 @@
 //! Thread pool, and the flag that stops it.
 
 use std::{
+    ops::ControlFlow,
     process,
     sync::{
         Arc,
@@ -33,4 +34,12 @@ pub fn stop_on_request() -> Arc<AtomicBool> {
         }
     });
     stop
+}
+
+/// What a run is to do: go on as its progress says, unless the flag is set.
+pub fn unless_stopped(stop: &AtomicBool, go_on: ControlFlow<()>) -> ControlFlow<()> {
+    match stop.load(Ordering::Relaxed) {
+        true => ControlFlow::Break(()),
+        false => go_on,
+    }
 }

@@ -7,7 +7,7 @@ mod values;
 use std::{
     ops::ControlFlow,
     path::PathBuf,
-    sync::{Mutex, PoisonError, atomic::Ordering},
+    sync::{Mutex, PoisonError},
 };
 
 use clap::{Args, builder::PossibleValuesParser};
@@ -31,7 +31,8 @@ use crate::{
     progress::Progress,
     response::{ProgressCallback, Response, ResponseData, VirtualFiles},
     run_folder::RunFolder,
-    shot_data, terminal, workers,
+    shot_data, terminal,
+    workers::{self, unless_stopped},
 };
 
 const LONG_ABOUT: &str = "\
@@ -279,10 +280,7 @@ impl Calibrate {
                 }
                 board.1.update(part, &stage.describe(runs));
             }
-            match stop.load(Ordering::Relaxed) {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
-            }
+            unless_stopped(&stop, ControlFlow::Continue(()))
         };
         let result = self.solve(problem, settings, &watch);
         let board = board.into_inner().unwrap_or_else(PoisonError::into_inner);

@@ -1,9 +1,6 @@
 //! Axisymmetric answer of a run, computed after the result of its model.
 
-use std::{
-    ops::ControlFlow,
-    sync::atomic::{AtomicBool, Ordering},
-};
+use std::sync::atomic::AtomicBool;
 
 use percuss::{
     Error, Refusal, Scenario,
@@ -22,6 +19,7 @@ use crate::{
     response::ProgressCallback,
     result_table,
     terminal::{bold, paragraph},
+    workers::unless_stopped,
 };
 
 /// Whether a run by this model, or by the default, gets the answer.
@@ -71,10 +69,7 @@ impl Wanted {
             "axisymmetric runs on {} cells per radius",
             listed(&plan.cells)
         );
-        let mut report = |fraction: f64| match stop.load(Ordering::Relaxed) {
-            true => ControlFlow::Break(()),
-            false => on_progress(fraction, &words),
-        };
+        let mut report = |fraction: f64| unless_stopped(stop, on_progress(fraction, &words));
         axisymmetric::answer_with_frames(scenario, plan, &mut report, frames)
     }
 

@@ -74,20 +74,20 @@ Files of the same names are replaced, other files are kept.
 With --units the tables in DIR are in another unit system; the names of their
 columns say so. result.json and figures keep their units.
 
-With --fields the models `chain`, `fdm` and `axi` also write their fields
-against time as a series for ParaView (fields.pvd, which can be opened during
-the run). Ctrl-C, or a termination request of the system, leaves a checkpoint in
-DIR, from which --resume continues with the same numbers.
+With --fields numerical models also write their fields against time as a
+series for ParaView (fields.pvd, which can be opened during the run). Ctrl-C, or
+a termination request of the system, leaves a checkpoint in DIR, from which
+--resume continues with the same numbers.
 
-The two-dimensional model `axi` also writes the shapes of crater and projectile
-(CSV and figure) and its fields at the end: field.vtp for ParaView and a picture
-of one of them, field.png. With --animation it writes animation.gif and its
-pictures (frames/).
+The two-dimensional models `axi` and `particles` also write their fields at the
+end: field.vtp for ParaView and a picture of one of them, field.png. `axi` adds
+the shapes of crater and projectile (CSV and figure). With --animation it writes
+animation.gif and its pictures (frames/).
 
 With --seeds N the model `particles` runs N packings: the seed of the case and
 the next ones. The table and --json (`seeds`) then also have mean, standard
 deviation and range of every result number. Files and the first table are of the
-first seed.
+first seed. Ctrl-C keeps the packings that are complete.
 
 After one second a progress bar appears, if standard error is a terminal.";
 

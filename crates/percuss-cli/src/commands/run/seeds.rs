@@ -1,9 +1,6 @@
 //! Runs of a case with several packings of particles.
 
-use std::{
-    ops::ControlFlow,
-    sync::atomic::{AtomicBool, Ordering},
-};
+use std::sync::atomic::AtomicBool;
 
 use percuss::{
     Error, Scenario,
@@ -15,7 +12,10 @@ use percuss::{
 };
 use percuss_report::table::Table;
 
-use crate::{failure::Failure, response::ProgressCallback, table::blocks, terminal::bold};
+use crate::{
+    failure::Failure, response::ProgressCallback, table::blocks, terminal::bold,
+    workers::unless_stopped,
+};
 
 /// Runs the packings after the first one, whose result is there. A study that is stopped has those that are complete, and says so.
 pub(super) fn study(
@@ -37,12 +37,7 @@ pub(super) fn study(
                 number + 1,
                 now.time * 1e6
             );
-            match on_progress(part, &words) {
-                ControlFlow::Continue(()) if !stop.load(Ordering::Relaxed) => {
-                    ControlFlow::Continue(())
-                }
-                _ => ControlFlow::Break(()),
-            }
+            unless_stopped(stop, on_progress(part, &words))
         };
         let mut control = Control {
             progress: Some(&mut report),

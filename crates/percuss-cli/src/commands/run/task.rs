@@ -3,10 +3,7 @@
 use std::{
     ops::ControlFlow,
     path::{Path, PathBuf},
-    sync::{
-        Arc,
-        atomic::{AtomicBool, Ordering},
-    },
+    sync::{Arc, atomic::AtomicBool},
     time::Duration,
 };
 
@@ -30,6 +27,7 @@ use crate::{
     response::{ProgressCallback, VirtualFiles},
     run_folder::RunFolder,
     run_output::RunOutput,
+    workers::unless_stopped,
 };
 
 /// Default of the largest number of frames.
@@ -143,12 +141,7 @@ impl<'a> Task<'a> {
         let result = match &mut self.fields {
             Some(fields) => fields.run(&self.chosen, &self.scenario, &mut report)?,
             None => {
-                let mut report = |now: model::Progress| match report(now) {
-                    ControlFlow::Continue(()) if !self.stop.load(Ordering::Relaxed) => {
-                        ControlFlow::Continue(())
-                    }
-                    _ => ControlFlow::Break(()),
-                };
+                let mut report = |now: model::Progress| unless_stopped(self.stop, report(now));
                 let mut control = Control {
                     record: self.folder.is_some() || !self.scenario.measured_curves.is_empty(),
                     progress: Some(&mut report),

@@ -3,10 +3,7 @@
 use std::{
     ops::ControlFlow,
     path::Path,
-    sync::{
-        Mutex, PoisonError,
-        atomic::{AtomicBool, Ordering},
-    },
+    sync::{Mutex, PoisonError, atomic::AtomicBool},
 };
 
 use percuss::{
@@ -23,6 +20,7 @@ use crate::{
     failure::Failure,
     progress::Progress,
     terminal::{self, bold, paragraph},
+    workers::unless_stopped,
 };
 
 /// Computes what the file of a folder lacks, and sums up what this computed.
@@ -66,10 +64,7 @@ pub(super) fn compute(
                 let part = work.sum::<f64>() / whole.max(f64::MIN_POSITIVE);
                 let words = format!("{} of {} axisymmetric answers", state.done, due.len());
                 state.progress.update(part, &words);
-                match stop.load(Ordering::Relaxed) {
-                    true => ControlFlow::Break(()),
-                    false => ControlFlow::Continue(()),
-                }
+                unless_stopped(stop, ControlFlow::Continue(()))
             };
             if report(0.0).is_break() {
                 return Err(Failure::Interrupted("the axisymmetric answers"));

@@ -3,7 +3,6 @@
 mod table;
 
 use std::{
-    ops::ControlFlow,
     path::PathBuf,
     sync::{
         Mutex, PoisonError,
@@ -33,7 +32,7 @@ use crate::{
     response::{ProgressCallback, Response, ResponseData, VirtualFiles},
     run_folder::RunFolder,
     speeds::{Speeds, SpeedsError},
-    workers,
+    workers::{self, unless_stopped},
 };
 
 const LONG_ABOUT: &str = "\
@@ -251,10 +250,7 @@ impl Uncertainty {
             let words = format!("{points} axisymmetric answers");
             let mut report = |fraction: f64| {
                 let mut on_progress = on_progress.lock().unwrap_or_else(PoisonError::into_inner);
-                match stop.load(Ordering::Relaxed) {
-                    true => ControlFlow::Break(()),
-                    false => on_progress(fraction, &words),
-                }
+                unless_stopped(stop, on_progress(fraction, &words))
             };
             let corrected =
                 pool.install(|| uncertainty::correct(study, &found, points as usize, &mut report))?;
