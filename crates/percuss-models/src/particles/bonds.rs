@@ -1,9 +1,9 @@
 //! Forces of the bonds of a row of particles to their next neighbours.
 
 use super::{
-    body::{Damage, RowMake, RowState},
     fracture::Softening,
     lattice::DIRECTIONS,
+    row::{Damage, RowMake, RowState},
 };
 use crate::lanes::larger;
 

@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::{
-    body::{Body, Damage},
+    body::Body,
+    row::Damage,
     step::{LEAST_ROWS, Load, Sweep},
 };
 

@@ -7,7 +7,7 @@ use crate::options::{FailureCriterion, Space};
 pub(super) const LEAST_SOFTENING: f64 = 3.0;
 /// Largest one: beyond it forces change too little from step to step to matter.
 pub(super) const LARGEST_SOFTENING: f64 = 1e4;
-/// Least softening with which cracks take the energy of the table, whatever the size of a body, where bonds fail by the principal stress.
+/// Least softening with which the energy that a crack takes does not grow with the size of the body, where bonds fail by the principal stress.
 pub(super) const LEAST_BY_STRESS: f64 = 10.0;
 /// Rounds of the search for the softening, whose lattice factor depends on it.
 const ROUNDS: usize = 30;

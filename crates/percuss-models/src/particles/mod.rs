@@ -12,12 +12,14 @@ mod packing;
 mod periodic;
 mod pieces;
 mod results;
+mod row;
 mod run;
 mod setup;
 mod shape;
 mod slot;
 mod step;
 mod survey;
+mod tension;
 #[cfg(test)]
 mod tests;
 

@@ -1,0 +1,99 @@
+//! A row of particles: state, motion, masses and bonds at rest.
+
+use serde::{Deserialize, Serialize};
+
+/// Displacements [m] and rotations of a row. A place before the first particle and places behind the last one stay at rest.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct RowState {
+    pub(super) x: Vec<f64>,
+    pub(super) z: Vec<f64>,
+    /// Cosine of the rotation.
+    pub(super) cosine: Vec<f64>,
+    /// Its sine.
+    pub(super) sine: Vec<f64>,
+    /// Damage of the bonds that start in the row; empty where nothing breaks.
+    #[serde(default)]
+    pub(super) damage: Damage,
+    /// Sums of the products of forces and bonds of each particle a step ago, `xx`, `zz` and `xz` [N m per m]; empty where no
+    /// bond fails by its stress.
+    #[serde(default)]
+    pub(super) virial: [Vec<f64>; 3],
+    /// Energy that their softening has taken [J per m].
+    #[serde(default)]
+    pub(super) lost: f64,
+}
+
+/// Damage of the three kinds of bonds that start in a row.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Damage {
+    /// Their largest elongations, in those at which they start to soften.
+    pub(super) worst: [Vec<f64>; 3],
+    /// Their deformation a step ago, in the same unit.
+    pub(super) measure: [Vec<f64>; 3],
+    /// Their deformation when they started to soften by their stress, in the same unit, and 0 before; empty where they do not.
+    pub(super) start: [Vec<f64>; 3],
+}
+
+impl Damage {
+    /// Whole bonds of a row of a number of places.
+    pub(super) fn new(places: usize, by_stress: bool) -> Self {
+        let zeros = || [0, 1, 2].map(|_| vec![0.0; places]);
+        let none = <[Vec<f64>; 3]>::default;
+        Self {
+            worst: zeros(),
+            measure: zeros(),
+            start: if by_stress { zeros() } else { none() },
+        }
+    }
+
+    /// Deformation at which a bond starts to soften; by its stress 0 before it did.
+    pub(super) fn start_of(&self, kind: usize, place: usize) -> f64 {
+        self.start[kind].get(place).copied().unwrap_or(1.0)
+    }
+}
+
+/// Velocities of a row, half a step behind its displacements.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct RowMotion {
+    pub(super) x: Vec<f64>,
+    pub(super) z: Vec<f64>,
+    /// Angular velocity [rad/s].
+    pub(super) spin: Vec<f64>,
+}
+
+/// What a row is made of.
+#[derive(Debug, Clone, Default)]
+pub(super) struct RowMake {
+    /// Masses [kg per m]; 0 where there is no particle.
+    pub(super) mass: Vec<f64>,
+    /// One over the mass; 0 where there is no particle.
+    pub(super) inverse_mass: Vec<f64>,
+    /// One over the moment of inertia; 0 where there is no particle.
+    pub(super) inverse_inertia: Vec<f64>,
+    /// One over the mass of a particle and its neighbours [m/kg]; empty where no bond fails by its stress.
+    pub(super) inverse_mass_around: Vec<f64>,
+    /// Weights of the bonds that start in the row: half the number of triangles that share a bond, or what their dual facets are.
+    pub(super) weights: [Vec<f64>; 3],
+    /// The bonds at rest, where particles are moved; otherwise empty.
+    pub(super) rests: [Rests; 3],
+    /// How far particles are moved from their places on the lattice [m]; otherwise empty.
+    pub(super) shift: [Vec<f64>; 2],
+}
+
+/// Bonds of a row at rest.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Rests {
+    /// Directions to their second particles.
+    pub(super) x: Vec<f64>,
+    pub(super) z: Vec<f64>,
+    /// Lengths [m].
+    pub(super) length: Vec<f64>,
+}
+
+impl RowMake {
+    /// Whether its particles stand beside the places of the lattice.
+    #[inline(always)]
+    pub(super) fn is_moved(&self) -> bool {
+        !self.shift[0].is_empty()
+    }
+}
