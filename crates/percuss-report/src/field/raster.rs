@@ -60,9 +60,10 @@ pub(crate) fn draw(
         inside: vec![0.0; columns * rows],
         value: vec![0.0; columns * rows],
     };
-    // Each body by itself, so that what closes gaps in one leaves those between two. A plane target is a lattice, of which gaps are slots and cracks.
-    for this in 0..=points.bodies.iter().copied().max().unwrap_or(0) {
-        let mut layer = Layer::new((columns, rows), size, is_whole && this > 0);
+    // Each body by itself, so that what closes gaps in one leaves those between two. The last plane body is the lattice: its gaps are slots and cracks.
+    let last = points.bodies.iter().copied().max().unwrap_or(0);
+    for this in 0..=last {
+        let mut layer = Layer::new((columns, rows), size, is_whole && this == last);
         for (index, _) in points
             .bodies
             .iter()

@@ -23,6 +23,8 @@ pub struct FieldSpan {
     rod: (f32, (f32, f32)),
     /// Largest depth of material of the target near the axis, and of the crater floor [m].
     target: f32,
+    /// Largest radius of the target [m].
+    across: f32,
     depth: f64,
 }
 
@@ -38,6 +40,7 @@ impl FieldSpan {
             values,
             rod: (0.0, (0.0, 0.0)),
             target: 0.0,
+            across: 0.0,
             depth,
         };
         for ([radius, depth], body) in places {
@@ -49,6 +52,7 @@ impl FieldSpan {
                 );
             } else {
                 span.target = span.target.max(depth);
+                span.across = span.across.max(radius.abs());
             }
         }
         span
@@ -62,6 +66,7 @@ impl FieldSpan {
             values: range(self.values, other.values),
             rod: (self.rod.0.max(other.rod.0), range(self.rod.1, other.rod.1)),
             target: self.target.max(other.target),
+            across: self.across.max(other.across),
             depth: self.depth.max(other.depth),
         }
     }
@@ -89,8 +94,33 @@ impl FieldSpan {
             None => f64::from(self.target),
         };
         View {
-            radius: (f64::from(widest) + radius).max(6.0 * radius),
+            // A narrow target is shown whole.
+            radius: (f64::from(widest) + radius)
+                .max((6.0 * radius).min(f64::from(self.across) + radius)),
             depth: (back, end.min(shown).max(front + radius)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use percuss::case;
+
+    use super::FieldSpan;
+
+    /// A target narrower than three diameters of the projectile is shown whole, a wider one as far as that.
+    #[test]
+    fn a_narrow_target_fills_the_picture() {
+        let text = r#"
+            projectile = { material = "copper", length = "10 mm", diameter = "10 mm", impact_velocity = "100 m/s" }
+            target = { material = "copper", thickness = "5 mm" }
+        "#;
+        let scenario = case::load_str("narrow", text).unwrap();
+        for (half_width, shown) in [(2.5e-3_f32, 10e-3), (18e-3, 23e-3), (90e-3, 30e-3)] {
+            let places = [([5e-3_f32, -10e-3], 0_u8), ([half_width, 5e-3], 1)];
+            let span = FieldSpan::new((0.0, 1.0), places.into_iter(), 0.0);
+            let radius = span.view(&scenario).radius;
+            assert!((radius - shown).abs() < 1e-9, "{half_width}: {radius}");
         }
     }
 }
