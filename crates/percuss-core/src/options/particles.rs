@@ -68,8 +68,8 @@ pub enum FailureCriterion {
     /// Its own elongation and slide. Compression across the tension lowers the strength.
     #[default]
     Elongation,
-    /// The larger principal stress around one of its ends: the tensile strength, under any stress across the tension. For spacings that resolve
-    /// the strength.
+    /// The larger principal stress around one of its ends, whatever the stress across the tension. For spacings that resolve the tensile
+    /// strength.
     PrincipalStress,
 }
 
