@@ -10,8 +10,8 @@ use clap::{
 
 use crate::{
     commands::{
-        Benchmark, Calibrate, Compare, Completions, Converge, Limit, Man, Materials, Models, New,
-        Reproduce, Run, Schema, Serve, Sweep, Uncertainty, Validate,
+        Benchmark, Calibrate, Compare, Completions, Converge, Export, Limit, Man, Materials,
+        Models, New, Reproduce, Run, Schema, Serve, Sweep, Uncertainty, Validate,
     },
     failure::Failure,
     memory::limit_memory,
@@ -115,6 +115,7 @@ pub enum Command {
     New(New),
     Models(Models),
     Materials(Materials),
+    Export(Export),
     Schema(Schema),
     Reproduce(Reproduce),
     Completions(Completions),
@@ -137,6 +138,7 @@ impl Command {
             Self::New(command) => command.run(),
             Self::Models(command) => command.run(),
             Self::Materials(command) => command.run(),
+            Self::Export(command) => command.run(),
             Self::Schema(command) => command.run(),
             Self::Reproduce(command) => command.run(),
             Self::Completions(command) => command.run(Cli::command()),
@@ -171,6 +173,7 @@ pub fn execute(
         Command::New(command) => command.execute(),
         Command::Models(command) => command.execute(),
         Command::Materials(command) => command.execute(virtual_files),
+        Command::Export(command) => command.execute(virtual_files),
         Command::Schema(command) => command.execute(),
         Command::Reproduce(command) => command.execute(on_progress),
         Command::Serve(_) | Command::Completions(_) | Command::Man(_) => {

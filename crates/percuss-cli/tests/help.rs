@@ -41,6 +41,7 @@ fn help_fits_and_is_as_approved() {
         &["models"],
         &["materials"],
         &["materials", "show"],
+        &["export"],
         &["schema"],
         &["completions"],
         &["man"],

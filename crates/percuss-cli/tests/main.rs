@@ -8,6 +8,7 @@ mod calibrate;
 mod checkpoints;
 mod compare;
 mod docs;
+mod export;
 mod figures;
 mod fuzz;
 mod help;

@@ -23,6 +23,7 @@ mod fdm_rod;
 mod gauges;
 mod hot_rod;
 mod invariants;
+mod lammps;
 mod layers;
 mod long_rods;
 mod melting;

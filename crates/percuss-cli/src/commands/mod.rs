@@ -4,6 +4,7 @@ mod calibrate;
 mod compare;
 mod completions;
 mod converge;
+mod export;
 #[cfg(not(all(feature = "parquet", feature = "png", feature = "serve")))]
 mod left_out;
 mod limit;
@@ -25,6 +26,7 @@ pub use calibrate::Calibrate;
 pub use compare::Compare;
 pub use completions::Completions;
 pub use converge::Converge;
+pub use export::Export;
 #[cfg(not(feature = "serve"))]
 pub use left_out::Serve;
 #[cfg(not(feature = "parquet"))]

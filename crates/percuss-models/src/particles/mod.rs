@@ -7,6 +7,7 @@ mod debris;
 mod energy;
 mod fields;
 mod fracture;
+mod lammps;
 mod lattice;
 mod packing;
 mod periodic;
@@ -22,6 +23,8 @@ mod survey;
 mod tension;
 #[cfg(test)]
 mod tests;
+
+pub use lammps::{LammpsInput, lammps};
 
 pub use crate::options::{FailureCriterion, PackingKind, ParticlesOptions, Space};
 

@@ -247,6 +247,11 @@ pub(super) fn contact_law(scenario: &Scenario, body: &Body) -> ContactLaw {
     )
 }
 
+/// Whether the case has a plate as its target, and a rigid projectile.
+pub(super) fn is_plate(scenario: &Scenario) -> bool {
+    layer(scenario).is_some()
+}
+
 /// Whether the target is a disc.
 pub(super) fn is_disc(scenario: &Scenario) -> bool {
     layer(scenario).is_some() && scenario.options.particles.outline() == Outline::Disc

@@ -21,7 +21,7 @@ from ._percuss import VERSION as __version__
 from .benchmarks import Benchmark, benchmark
 from .calibration import Calibration, calibrate
 from .case import Case, load
-from .commands import ResistanceLaw, compare, converge, limit, run, validate
+from .commands import ResistanceLaw, compare, converge, export, limit, run, validate
 from .errors import (
     CaseError,
     ClusterError,
@@ -86,6 +86,7 @@ __all__ = [
     "calibrate",
     "compare",
     "converge",
+    "export",
     "export_materials",
     "flow_curves",
     "import_materials",

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
 
 from . import _percuss
-from .command_line import CaseLike, Path, Speed, execute, several, speeds, with_unit
+from .command_line import CaseLike, Path, Speed, answer, execute, several, speeds, with_unit
 from .case import Case, native
 from .errors import UsageError
 from .laws import StrengthLaw
@@ -278,6 +278,32 @@ def converge(
     [40, 80, 160]
     """
     return Convergence(execute("converge", of=case, model=model, levels=levels, out=out, progress=progress))
+
+
+def export(case: CaseLike, *, to: str, out: Path) -> dict[str, Any]:
+    """Writes the input of another code for a case, and returns what was written.
+
+    Parameters
+    ----------
+    case : Case or path
+        The case, or its file.
+    to : str
+        The code: ``"lammps"``, for bodies of bonded particles that do not break.
+    out : path
+        Folder for the input, as ``percuss export --out`` writes it; made if it does not exist.
+
+    Raises
+    ------
+    NotApplicableError
+        Where the model or the code cannot take the case.
+
+    Examples
+    --------
+    >>> percuss.export("cases/lattice-strip-on-wall/scenario.toml", to="lammps", out="deck")["bonds"]
+    46382
+    """
+    found: dict[str, Any] = answer("export", of=case, to=to, out=out)
+    return found
 
 
 def validate(
