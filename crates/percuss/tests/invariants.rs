@@ -163,6 +163,36 @@ fn numbers(result: &RunResult) -> Vec<f64> {
     numbers
 }
 
+/// Largest share of the impact energy that a dissipative line of the balance gives back.
+fn given_back(result: &RunResult) -> f64 {
+    let energy = &result.numerics().energy;
+    let dissipated = [
+        energy.plastic_projectile,
+        energy.plastic_target,
+        energy.border_shear,
+        energy.contact,
+        energy.fracture,
+    ];
+    let least = dissipated.into_iter().fold(0.0, f64::min);
+    if least < 0.0 {
+        -least / energy.initial
+    } else {
+        0.0
+    }
+}
+
+/// A case of [`any_case`] at a Courant number of 0.02.
+fn with_a_small_step(text: &str) -> String {
+    let kept = text
+        .lines()
+        .filter(|line| !line.starts_with("courant") && !line.starts_with("max_steps"));
+    let kept: String = kept.map(|line| format!("{line}\n")).collect();
+    kept.replace(
+        "[chain]\n",
+        "[chain]\ncourant = 0.02\nmax_steps = 2000000\n",
+    )
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -182,19 +212,46 @@ proptest! {
                     if scenario.target == TargetBody::RigidWall {
                         prop_assert_ne!(result.outcome, Outcome::Separated);
                     }
-                    let dissipated = [result.numerics().energy.plastic_projectile, result.numerics().energy.plastic_target,
-                        result.numerics().energy.border_shear, result.numerics().energy.contact, result.numerics().energy.fracture];
-                    // The traction of a crack is integrated over steps that change, which a coarse mesh shows.
-                    let allowed = if text.contains("failure") { 1e-4 } else { 1e-6 };
-                    for line in dissipated {
-                        prop_assert!(line >= -allowed * result.numerics().energy.initial, "a dissipative line gives energy back: {line}");
-                    }
+                    // Ends that meet again after a crack leave an error of the order of the squared step in the energy of contact,
+                    // which a coarse mesh shows: there, a smaller step decides.
+                    let given_back = if text.contains("failure") && given_back(&result) > 1e-6 {
+                        model::run(chain, &case::load_str("random", &with_a_small_step(&text)).unwrap(), &mut Control::default())
+                            .map_or(given_back(&result), |finer| given_back(&finer))
+                    } else {
+                        given_back(&result)
+                    };
+                    prop_assert!(given_back <= 1e-6, "dissipative lines give {given_back} of the impact energy back");
                 }
             }
             Err(Error::Numerical(_) | Error::NotApplicable { .. }) => {}
             Err(other) => prop_assert!(false, "{other}"),
         }
     }
+}
+
+#[test]
+fn what_contact_gives_back_after_a_crack_vanishes_with_the_step() {
+    let text = r#"
+[projectile]
+material = "tungsten-steinberg"
+length = "1 mm"
+diameter = "0.5 mm"
+impact_velocity = "136.4684708334109 m/s"
+[target]
+constant_pressure = "2665.4181826587637 MPa"
+[chain]
+projectile_elements = 5
+failure = { spall = { strength = "891.3387138161465 MPa" } }
+fracture_energy = "0 kJ/m2"
+local_damping = 0
+erosion_strain = 0.3
+kinematics = "small-strain"
+artificial_viscosity = { linear = 0.10478651245595405, quadratic = 1.0478651245595405 }
+"#;
+    let coarse = given_back(&run(text));
+    let fine = given_back(&run(&with_a_small_step(text)));
+    assert!((1e-4..3e-4).contains(&coarse), "{coarse}");
+    assert!(fine <= 1e-6, "{fine}");
 }
 
 /// Lengths times k give times times k and the same strains, for laws without a rate.
