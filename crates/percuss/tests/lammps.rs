@@ -91,6 +91,11 @@ fn what_lammps_has_not_is_refused_with_a_remedy() {
     let mut whole = cracks;
     whole.options.particles.fracture = Some(false);
     assert!(input(&whole).is_ok());
+    let mut oblique = whole.clone();
+    oblique.obliquity = 0.5;
+    let (message, help) = input(&oblique).unwrap_err().message_and_help();
+    assert!(message.contains("normal impact alone"), "{message}");
+    assert!(help.contains("projectile.obliquity"), "{help}");
     whole.projectile.nose = percuss::problem::Nose::Flat;
     let (message, help) = input(&whole).unwrap_err().message_and_help();
     assert!(message.contains("this nose"), "{message}");

@@ -24,7 +24,7 @@ pub(super) struct Body {
     pub(super) motion: Vec<RowMotion>,
     /// Displacements after the step that is computed.
     pub(super) next: Vec<RowState>,
-    /// Row and places of the particles that cannot move along the direction of impact, if any.
+    /// Row and places of the particles that cannot move along the normal of the struck face, if any.
     pub(super) held: Option<(usize, Range<usize>)>,
     /// Area of all triangles [m2].
     pub(super) area: f64,
@@ -354,7 +354,7 @@ impl Body {
         })
     }
 
-    /// Gives all particles a velocity along the direction of impact [m/s].
+    /// Gives all particles a velocity along the normal of the struck face [m/s].
     pub(super) fn launch(&mut self, velocity: f64) {
         for (row, motion) in self.rows.iter().zip(&mut self.motion) {
             for (speed, mass) in motion.z.iter_mut().zip(&row.mass) {

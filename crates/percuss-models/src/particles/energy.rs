@@ -98,7 +98,7 @@ impl Body {
         lost
     }
 
-    /// Momentum along the direction of impact half a step ago [N s per m].
+    /// Momentum along the normal of the struck face half a step ago [N s per m].
     pub(super) fn momentum(&self) -> f64 {
         let rows = self.rows.iter().zip(&self.motion);
         rows.flat_map(|(make, motion)| make.mass.iter().zip(&motion.z))

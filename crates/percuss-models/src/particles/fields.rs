@@ -1,6 +1,6 @@
 //! Stresses of particles, and fields for pictures and files.
 
-use super::{body::Body, lattice::ROW, shape::Shape};
+use super::{body::Body, lattice::ROW, run::PlaneImpact, shape::Shape};
 use crate::{history::ElementState, solver::Particle};
 
 /// Points from the axis of a rigid projectile to its side.
@@ -64,13 +64,9 @@ fn particle(body: &Body, row: usize, place: usize) -> Particle {
     }
 }
 
-/// Points that fill a rigid projectile, which show where it is.
-pub(super) fn rigid(
-    shape: &Shape,
-    length: f64,
-    mass: f64,
-    (tip, speed): (f64, f64),
-) -> Vec<Particle> {
+/// Points that fill a rigid projectile as far as a distance behind its tip [m], which show where it is.
+pub(super) fn rigid(run: &PlaneImpact<'_>, shape: &Shape, room: f64) -> Vec<Particle> {
+    let length = shape.length.min(room);
     let size = shape.radius / f64::from(COLUMNS);
     let mut points = Vec::new();
     let rows = (length / size).ceil() as u32;
@@ -85,10 +81,11 @@ pub(super) fn rigid(
             }
         }
     }
-    let share = mass / points.len().max(1) as f64;
-    let of = |[x, z]: [f64; 2]| Particle {
-        position: [x, z + tip],
-        velocity: [0.0, speed],
+    let share = run.inertia.mass / points.len().max(1) as f64;
+    let pose = run.pose();
+    let of = |point: [f64; 2]| Particle {
+        position: pose.place(point),
+        velocity: run.state.flight.velocity_at(pose.place(point)),
         mass: share,
         volume: size * size,
         sides: [size, size],
@@ -122,7 +119,7 @@ pub(super) fn along_axis(body: &Body, part: usize) -> Vec<ElementState> {
     .collect()
 }
 
-/// Strain along the direction of impact, between the row before and the row behind.
+/// Strain along the normal of the struck face, between the row before and the row behind.
 fn strain(body: &Body, row: usize, place: usize) -> f64 {
     let first = row.saturating_sub(1);
     let last = (row + 1).min(body.rows.len() - 1);

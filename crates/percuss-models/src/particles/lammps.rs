@@ -59,6 +59,10 @@ fn not_exported(scenario: &Scenario) -> Option<Refusal> {
         let remedy = "give `particles.fracture = false` for a body that does not break, and remove `particles.notches`";
         return Some(Refusal::new(reason).with_remedy(remedy));
     }
+    if scenario.obliquity != 0.0 {
+        let reason = "the input for LAMMPS has normal impact alone";
+        return Some(Refusal::new(reason).with_remedy("remove `projectile.obliquity`"));
+    }
     let is_round = scenario.projectile.nose == Nose::Hemisphere;
     (setup::is_plate(scenario) && !is_round).then(|| {
         let reason = "LAMMPS has no rigid body of this nose with a mass of its own: a round nose is one large particle";
@@ -198,7 +202,7 @@ impl<'a> Deck<'a> {
         }
         if let Rigid::Projectile(shape) = self.impact.rigid {
             let size = 2.0 * shape.radius;
-            let density = self.impact.mass / (SPHERE * size.powi(3));
+            let density = self.impact.inertia.mass / (SPHERE * size.powi(3));
             line(
                 &mut lines,
                 format_args!(

@@ -6,6 +6,7 @@ mod cracks;
 mod debris;
 mod energy;
 mod fields;
+mod flight;
 mod fracture;
 mod lammps;
 mod lattice;
@@ -34,7 +35,7 @@ use crate::{
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, CostClass, Estimate, Model, estimate::WorkRate},
     units::Length,
-    validity::ValidityDomain,
+    validity::{NoseKind, ValidityDomain},
 };
 
 /// Memory of a particle with the fields that show it [bytes], twice as much where particles are moved, and particles times steps per second of processor time.
@@ -88,6 +89,7 @@ impl Model for Particles {
                     TargetKind::RigidWall,
                 ],
                 predicts: &[BandQuantity::ResidualVelocity],
+                oblique_noses: NoseKind::ALL,
                 notes: &[
                     "plane strain or plane stress: the projectile is a strip, and results are per metre of width",
                     "a rigid projectile on one elastic plate, or an elastic strip on a rigid wall; bonds break where the material has \

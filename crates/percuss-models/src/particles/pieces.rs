@@ -9,7 +9,7 @@ pub(super) struct Piece {
     pub(super) particles: usize,
     /// Mass [kg per m].
     pub(super) mass: f64,
-    /// Momentum along the direction of impact [N s per m].
+    /// Momentum along the normal of the struck face [N s per m].
     pub(super) momentum: f64,
     /// Sum of the masses times the depths [kg m per m].
     moment: f64,

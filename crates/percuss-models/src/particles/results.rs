@@ -18,13 +18,21 @@ use crate::{
 /// Part of the impact velocity below which a projectile counts as stopped.
 const REST_FRACTION: f64 = 0.01;
 
-/// Mean velocity of the projectile [m/s].
+/// Mean velocity of the projectile along the normal of the face [m/s].
 fn mean_velocity(run: &PlaneImpact<'_>) -> f64 {
-    run.projectile_momentum() / run.mass
+    run.projectile_momentum() / run.inertia.mass
+}
+
+/// Velocity of the projectile: along the normal, or its speed where it came at an angle, negative away from the target [m/s].
+fn residual_velocity(run: &PlaneImpact<'_>) -> f64 {
+    match run.rigid {
+        Rigid::Wall => mean_velocity(run),
+        Rigid::Projectile(_) => run.state.flight.signed_speed(),
+    }
 }
 
 pub(super) fn outcome(run: &PlaneImpact<'_>, termination: Termination) -> Outcome {
-    let velocity = mean_velocity(run);
+    let velocity = residual_velocity(run);
     let least = REST_FRACTION * run.scenario.impact_velocity;
     match termination {
         Termination::NothingMoves => Outcome::AtRest,
@@ -64,12 +72,14 @@ pub(super) fn sample(run: &PlaneImpact<'_>, monitor: &RunMonitor) -> Sample {
             sample.projectile_length = back - front;
         }
         Rigid::Projectile(_) => {
-            sample.tip_velocity = state.velocity;
-            sample.tail_velocity = state.velocity;
+            let (pose, length) = (run.pose(), run.scenario.projectile.length);
+            let at = |point| state.flight.velocity_at(pose.place(point))[1];
+            sample.tip_velocity = at([0.0; 2]);
+            sample.tail_velocity = at([0.0, -length]);
             sample.interface_velocity = front_velocity;
             sample.back_velocity = back_velocity;
-            sample.tip_position = state.tip;
-            sample.projectile_length = run.scenario.projectile.length;
+            sample.tip_position = pose.tip[1];
+            sample.projectile_length = length;
         }
     }
     sample
@@ -83,9 +93,10 @@ pub(super) fn at_gauge(
 ) -> ElementState {
     if position < 0.0 && run.rigid != Rigid::Wall {
         let gone = ElementState::gone(0, position);
+        let place = run.pose().place([0.0, position]);
         return ElementState {
-            position: position + run.state.tip,
-            velocity: run.state.velocity,
+            position: place[1],
+            velocity: run.state.flight.velocity_at(place)[1],
             ..gone
         };
     }
@@ -109,8 +120,7 @@ pub(super) fn at_gauge(
 
 /// Adds velocities, sizes and warnings.
 pub(super) fn complete(run: &PlaneImpact<'_>, result: &mut RunResult, monitor: &RunMonitor) {
-    let velocity = mean_velocity(run);
-    result.residual_velocity = Some(velocity);
+    result.residual_velocity = Some(residual_velocity(run));
     result.projectile_final_length = Some(match run.rigid {
         Rigid::Wall => sample(run, monitor).projectile_length,
         Rigid::Projectile(_) => run.scenario.projectile.length,
@@ -151,7 +161,11 @@ fn details(run: &PlaneImpact<'_>) -> Vec<Detail> {
     let mut details = vec![
         detail("spacing of the particles", "mm", body.lattice.spacing * 1e3),
         detail("particles", "", body.particles().count() as f64),
-        detail("mass of the projectile, a metre wide", "kg", run.mass),
+        detail(
+            "mass of the projectile, a metre wide",
+            "kg",
+            run.inertia.mass,
+        ),
         detail("width of the lattice", "mm", body.width() * 1e3),
         detail(
             "area of the lattice over that of the body",
@@ -165,6 +179,9 @@ fn details(run: &PlaneImpact<'_>) -> Vec<Detail> {
             100.0 * run.state.largest_stretch,
         ),
     ];
+    if run.inertia.moment.is_some() {
+        details.extend(flight_details(run));
+    }
     if let Some(softening) = &body.softening {
         let pieces = body.pieces();
         let single = pieces.iter().filter(|piece| piece.particles == 1).count();
@@ -174,6 +191,26 @@ fn details(run: &PlaneImpact<'_>) -> Vec<Detail> {
         ]);
     }
     details
+}
+
+/// Where a projectile that came at an angle goes.
+fn flight_details(run: &PlaneImpact<'_>) -> [Detail; 3] {
+    let flight = &run.state.flight;
+    let [[u, w], [cosine, sine]] = [flight.velocity, flight.turn];
+    let detail = |name, unit, value| Detail { name, unit, value };
+    [
+        detail(
+            "direction of flight, from the normal into the target",
+            "deg",
+            u.atan2(w).to_degrees(),
+        ),
+        detail(
+            "axis of the projectile, from the normal into the target",
+            "deg",
+            (-sine).atan2(cosine).to_degrees(),
+        ),
+        detail("spin of the projectile", "rad/s", -flight.spin),
+    ]
 }
 
 fn warnings(run: &PlaneImpact<'_>, result: &RunResult) -> Vec<String> {

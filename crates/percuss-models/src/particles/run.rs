@@ -6,7 +6,9 @@ use super::{
     body::Body,
     cracks::{Front, Notches},
     debris::{ContactLaw, Debris},
-    fields, results, setup,
+    fields,
+    flight::{Flight, Inertia, Pose},
+    results, setup,
     shape::{Contact, Rigid, contact, stiffness},
     step::Load,
     survey::extremes,
@@ -45,8 +47,7 @@ pub(crate) struct PlaneImpact<'a> {
     pub(super) scenario: &'a Scenario,
     pub(super) body: Body,
     pub(super) rigid: Rigid,
-    /// Mass of the projectile [kg per m].
-    pub(super) mass: f64,
+    pub(super) inertia: Inertia,
     pub(super) state: State,
     pub(super) time_step: f64,
     contact: Contact,
@@ -60,14 +61,12 @@ pub(crate) struct PlaneImpact<'a> {
 }
 
 /// What a step changes beside the lattice.
-#[derive(Debug, Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, serde::Serialize, serde::Deserialize)]
 pub(super) struct State {
     step: u64,
     pub(super) time: f64,
-    /// Depth of the tip of a rigid projectile [m].
-    pub(super) tip: f64,
-    /// Its velocity, half a step behind [m/s].
-    pub(super) velocity: f64,
+    /// Motion of a rigid projectile.
+    pub(super) flight: Flight,
     /// Impulse on what holds the rear face, or on the wall [N s per m].
     support: f64,
     /// Time of the last contact [s]; negative before the first.
@@ -87,21 +86,25 @@ impl PlaneImpact<'_> {
         usize::from(self.rigid != Rigid::Wall)
     }
 
-    /// Momentum of the projectile [N s per m].
+    /// Momentum of the projectile along the normal of the face [N s per m].
     pub(super) fn projectile_momentum(&self) -> f64 {
         match self.rigid {
             Rigid::Wall => self.initial.1 - self.state.support,
-            Rigid::Projectile(_) => self.mass * self.state.velocity,
+            Rigid::Projectile(_) => self.inertia.mass * self.state.flight.velocity[1],
         }
     }
 
-    /// Force between the bodies [N per m].
+    /// Force between the bodies along the normal of the face [N per m].
     pub(super) fn contact_force(&self) -> f64 {
-        self.contact.force.abs()
+        self.contact.force[1].abs()
+    }
+
+    pub(super) fn pose(&self) -> Pose {
+        self.state.flight.pose(&self.inertia)
     }
 
     fn find_contact(&mut self) {
-        self.contact = contact(&self.body, self.rigid, self.state.tip);
+        self.contact = contact(&self.body, self.rigid, self.pose());
         self.loads.clone_from(&self.contact.loads);
         let of_pieces = self.debris.loads(&self.body, &self.law);
         self.loads.extend(of_pieces);
@@ -135,11 +138,9 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
     ) -> Result<Self, Error> {
         let (body, rigid) = setup::build(scenario, control)?;
         let speed = scenario.impact_velocity;
-        let rod = &scenario.projectile;
-        let mass = match rigid {
-            Rigid::Wall => body.mass(),
-            Rigid::Projectile(shape) => rod.material.density.si() * shape.area(rod.length),
-        };
+        let angle = scenario.obliquity;
+        let (inertia, flight) = setup::projectile(scenario, &body, rigid);
+        let mass = inertia.mass;
         // A particle of the surface has half the mass of one inside, and a spring of the contact beside its bonds.
         let frequency = match body.rows[0].is_moved() {
             true => body.measured_frequency(control)?,
@@ -150,12 +151,16 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         let mut impact = Self {
             scenario,
             time_step: courant * 2.0 / of_contact,
-            mass,
+            inertia,
             rigid,
             state: State {
-                velocity: speed,
+                flight,
                 last_contact: -1.0,
-                ..State::default()
+                step: 0,
+                time: 0.0,
+                support: 0.0,
+                largest_stretch: 0.0,
+                largest_tension: 0.0,
             },
             contact: Contact::default(),
             debris: Debris::default(),
@@ -163,7 +168,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
             front: Front::default(),
             notches: setup::notches(scenario, &body),
             loads: Vec::new(),
-            initial: (0.5 * mass * speed * speed, mass * speed),
+            initial: (0.5 * mass * speed * speed, mass * speed * angle.cos()),
             body,
         };
         control.ask()?;
@@ -189,10 +194,9 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         let step = self.time_step;
         self.state.support += self.body.advance(step, &self.loads);
         match self.rigid {
-            Rigid::Wall => self.state.support -= step * self.contact.force,
+            Rigid::Wall => self.state.support -= step * self.contact.force[1],
             Rigid::Projectile(_) => {
-                self.state.velocity -= step * self.contact.force / self.mass;
-                self.state.tip += step * self.state.velocity;
+                (self.state.flight).advance(step, &self.inertia, &self.contact);
             }
         }
         self.state.step += 1;
@@ -230,7 +234,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
                 Rigid::Wall => 0.0,
                 Rigid::Projectile(_) => self.body.state[0].z[place],
             },
-            contact_force: self.contact.force.abs(),
+            contact_force: self.contact_force(),
             contact_time: if touches { self.time_step } else { 0.0 },
         }
     }
@@ -253,9 +257,9 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
                 energy.elastic_projectile = elastic;
             }
             Rigid::Projectile(_) => {
-                let velocity = self.state.velocity;
-                let after = self.mass * velocity - self.time_step * self.contact.force;
-                energy.kinetic_projectile = 0.5 * velocity * after;
+                let flight = &self.state.flight;
+                energy.kinetic_projectile =
+                    flight.kinetic_energy(self.time_step, &self.inertia, &self.contact);
                 energy.kinetic_target = sums.kinetic;
                 energy.elastic_target = elastic;
             }
@@ -270,7 +274,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         match self.rigid {
             Rigid::Wall => momentum.projectile = lattice,
             Rigid::Projectile(_) => {
-                momentum.projectile = self.mass * self.state.velocity;
+                momentum.projectile = self.projectile_momentum();
                 momentum.target = lattice;
             }
         }
@@ -302,10 +306,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
 
     fn event(&mut self, _: &RunMonitor) -> Result<Option<Termination>, NumericalError> {
         let State {
-            time,
-            last_contact,
-            velocity,
-            ..
+            time, last_contact, ..
         } = self.state;
         let extent = setup::extent(self.scenario);
         let free = PARTED_AFTER * 2.0 * extent.length.max(0.5 * extent.width)
@@ -316,7 +317,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         }
         // A free target may still be slower than a projectile that goes on: then they meet again.
         let target = self.body.momentum() / self.body.mass();
-        let apart = self.rigid == Rigid::Wall || velocity < target;
+        let apart = self.rigid == Rigid::Wall || self.state.flight.velocity[1] < target;
         Ok(apart.then_some(Termination::Parted))
     }
 
@@ -347,15 +348,10 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         let bodies = match self.rigid {
             Rigid::Wall => vec![lattice],
             Rigid::Projectile(shape) => {
-                let motion = (self.state.tip, self.state.velocity);
                 // Of a long projectile only what a picture of the lattice has room for.
                 let extent = setup::extent(self.scenario);
                 let room = extent.length.max(extent.width);
-                let length = self.scenario.projectile.length.min(room);
-                vec![
-                    Cow::Owned(fields::rigid(&shape, length, self.mass, motion)),
-                    lattice,
-                ]
+                vec![Cow::Owned(fields::rigid(self, &shape, room)), lattice]
             }
         };
         Fields::Particles {

@@ -4,6 +4,7 @@ use super::{
     body::{Body, Rows},
     cracks::Notches,
     debris::ContactLaw,
+    flight::{Flight, Inertia},
     fracture::{self, BondKind, LEAST_SOFTENING, Softening, Toughness},
     lattice::{Lattice, ROW, Solid, poissons_ratio_refusal},
     packing::{Moved, Packing},
@@ -35,7 +36,7 @@ const LEAST: f64 = 2.0;
 /// The body that is a lattice.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Extent {
-    /// Size along the direction of impact [m].
+    /// Size along the normal of the struck face [m].
     pub(super) length: f64,
     /// Size across it [m].
     pub(super) width: f64,
@@ -93,6 +94,11 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
         );
         return Some(Refusal::new(reason).with_remedy(remedy));
     }
+    if scenario.obliquity != 0.0 && layer(scenario).is_none() {
+        let reason = "a lattice on a rigid wall takes normal impact alone";
+        let remedy = "remove `projectile.obliquity`, or give a plate as the target";
+        return Some(Refusal::new(reason).with_remedy(remedy));
+    }
     let space = scenario.options.particles.space();
     poissons_ratio_refusal(space, material.poissons_ratio, id)
 }
@@ -130,7 +136,7 @@ pub(super) fn extent(scenario: &Scenario) -> Extent {
 }
 
 impl Extent {
-    /// Layers of triangles along the direction of impact.
+    /// Layers of triangles along the normal of the struck face.
     fn layers(&self) -> f64 {
         (self.length / (ROW * self.spacing) - 1e-9)
             .ceil()
@@ -261,7 +267,8 @@ pub(super) fn is_disc(scenario: &Scenario) -> bool {
 fn time_of_cracks(scenario: &Scenario, lattice: &Lattice) -> f64 {
     let size = extent(scenario);
     let waves = WAYS * size.length.max(size.width) / lattice.wave_speed;
-    waves + size.length / scenario.impact_velocity.max(1.0)
+    let speed = scenario.impact_velocity * scenario.obliquity.cos();
+    waves + size.length / speed.max(1.0)
 }
 
 /// Ends of the notches of a case [m].
@@ -295,6 +302,29 @@ pub(super) fn notches(scenario: &Scenario, body: &Body) -> Notches {
         .map(|notch| (notch.ends(), notch.width.is_some()))
         .collect();
     Notches::of(body, &notches)
+}
+
+/// Inertia and motion of the projectile at the moment of impact.
+pub(super) fn projectile(scenario: &Scenario, body: &Body, rigid: Rigid) -> (Inertia, Flight) {
+    let (shape, angle) = (shape(scenario), scenario.obliquity);
+    let inertia = match rigid {
+        Rigid::Wall => Inertia::on_axis(body.mass()),
+        Rigid::Projectile(_) => {
+            let density = scenario.projectile.material.density.si();
+            Inertia::of(&shape, density, angle != 0.0)
+        }
+    };
+    let flight = Flight::at_impact(&shape, &inertia, scenario.impact_velocity, angle);
+    (inertia, flight)
+}
+
+/// Outline of the projectile.
+fn shape(scenario: &Scenario) -> Shape {
+    Shape {
+        nose: scenario.projectile.nose,
+        radius: 0.5 * scenario.projectile.diameter,
+        length: scenario.projectile.length,
+    }
 }
 
 /// The lattice at the moment of impact, and the rigid body that it meets.
@@ -344,9 +374,5 @@ pub(super) fn build(
             Outline::Disc => 0.5 * scenario.projectile.diameter,
         });
     }
-    let shape = Shape {
-        nose: scenario.projectile.nose,
-        radius: 0.5 * scenario.projectile.diameter,
-    };
-    Ok((body, Rigid::Projectile(shape)))
+    Ok((body, Rigid::Projectile(shape(scenario))))
 }

@@ -1,6 +1,6 @@
 //! Plane shape of a rigid projectile, and the contact of particles with it.
 
-use super::{body::Body, lattice::ROW, step::Load};
+use super::{body::Body, flight::Pose, lattice::ROW, step::Load};
 use crate::problem::Nose;
 
 /// Part of the radius within which a particle is on the axis.
@@ -21,6 +21,8 @@ pub(super) struct Shape {
     pub(super) nose: Nose,
     /// Half of its thickness [m].
     pub(super) radius: f64,
+    /// Length over all [m].
+    pub(super) length: f64,
 }
 
 /// Forces of a contact.
@@ -28,8 +30,10 @@ pub(super) struct Shape {
 pub(super) struct Contact {
     /// Forces on particles, in the order of the rows.
     pub(super) loads: Vec<Load>,
-    /// Force on the particles along the direction of impact [N per m].
-    pub(super) force: f64,
+    /// Force on the particles [N per m].
+    pub(super) force: [f64; 2],
+    /// Its moment about the tip of the projectile [N m per m].
+    pub(super) moment: f64,
     /// Elastic energy of the contact springs [J per m].
     pub(super) energy: f64,
 }
@@ -45,7 +49,10 @@ impl Shape {
     /// The depth is the distance to the surface, so that the force `k δ` has a potential everywhere.
     pub(super) fn penetration(&self, [x, z]: [f64; 2]) -> Option<(f64, [f64; 2])> {
         let (radius, side) = (self.radius, if x < 0.0 { -1.0 } else { 1.0 });
-        let shank = (radius - x.abs(), [side, 0.0]);
+        let shank = nearer(
+            (radius - x.abs(), [side, 0.0]),
+            (z + self.length, [0.0, -1.0]),
+        );
         let below_shoulder = z + self.nose_length();
         let nearest = match self.nose {
             Nose::Flat => nearer(shank, (-z, [0.0, 1.0])),
@@ -67,15 +74,16 @@ impl Shape {
             }
             Nose::Hemisphere | Nose::Ogive { .. } => shank,
         };
-        let (depth, [across, along]) = nearest;
+        let tail = (z + self.length, [0.0, -1.0]);
+        let (depth, [across, along]) = nearer(nearest, tail);
         // On the axis both flanks are equally near, and what they push to the sides cancels.
         let on_axis = x.abs() < ON_AXIS * radius && along > 0.0;
         let direction = [if on_axis { 0.0 } else { across }, along];
         (depth > 0.0).then_some((depth, direction))
     }
 
-    /// Area of the plane shape of a projectile of a length over all [m2].
-    pub(super) fn area(&self, length: f64) -> f64 {
+    /// Area [m2].
+    pub(super) fn area(&self) -> f64 {
         let (radius, nose) = (self.radius, self.nose_length());
         let of_nose = match self.nose {
             Nose::Flat => 0.0,
@@ -88,8 +96,88 @@ impl Shape {
                 arc * arc * angle - (arc - radius) * nose
             }
         };
-        2.0 * radius * (length - nose) + of_nose
+        2.0 * radius * (self.length - nose) + of_nose
     }
+
+    /// Half of the width at a distance behind the tip [m].
+    fn half_width(&self, behind: f64) -> f64 {
+        let (radius, nose) = (self.radius, self.nose_length());
+        if behind >= nose {
+            return radius;
+        }
+        match self.nose {
+            Nose::Flat => radius,
+            Nose::Cone { .. } => radius * behind / nose,
+            Nose::Hemisphere => (behind * (2.0 * radius - behind)).sqrt(),
+            Nose::Ogive { crh } => {
+                let arc = 2.0 * crh * radius;
+                (arc * arc - (nose - behind).powi(2)).sqrt() - (arc - radius)
+            }
+        }
+    }
+
+    /// Distance of the centre of area behind the tip [m], and the second moment of area about it, in the plane [m4].
+    pub(super) fn moments(&self) -> (f64, f64) {
+        // With `behind = nose t²` the width of every nose is smooth in `t`.
+        let nose = self.nose_length();
+        let mut sums = [0.0; 3];
+        let mut add = |weight: f64, behind: f64| {
+            let half = self.half_width(behind);
+            let area = weight * 2.0 * half;
+            sums[0] += area;
+            sums[1] += area * behind;
+            sums[2] += area * (behind * behind + half * half / 3.0);
+        };
+        for i in 0..=PANELS {
+            let t = f64::from(i) / f64::from(PANELS);
+            add(simpson(i) * 2.0 * nose * t, nose * t * t);
+            let shank = self.length - nose;
+            add(simpson(i) * shank, nose + shank * t);
+        }
+        let centre = sums[1] / sums[0];
+        (centre, sums[2] - sums[1] * centre)
+    }
+
+    /// The point farthest in a direction of unit length, from the tip [m].
+    pub(super) fn farthest(&self, [x, z]: [f64; 2]) -> [f64; 2] {
+        let (radius, nose) = (self.radius, self.nose_length());
+        let side = if x < 0.0 { -1.0 } else { 1.0 };
+        let of = |point: [f64; 2]| x * point[0] + z * point[1];
+        let shoulder = [side * radius, -nose];
+        let mut points = vec![[side * radius, -self.length], shoulder];
+        match self.nose {
+            Nose::Flat => {}
+            Nose::Cone { .. } => points.push([0.0; 2]),
+            Nose::Hemisphere | Nose::Ogive { .. } => {
+                let arc = match self.nose {
+                    Nose::Ogive { crh } => 2.0 * crh * radius,
+                    _ => radius,
+                };
+                let on_arc = [side * (radius - arc) + arc * x, arc * z - nose];
+                points.push([0.0; 2]);
+                if z >= 0.0 && side * on_arc[0] >= 0.0 {
+                    points.push(on_arc);
+                }
+            }
+        }
+        let farther = |a: [f64; 2], b: [f64; 2]| if of(b) > of(a) { b } else { a };
+        points
+            .into_iter()
+            .fold([side * radius, -self.length], farther)
+    }
+}
+
+/// Panels of the integrals over a shape.
+const PANELS: u32 = 2000;
+
+/// Weight of a point of Simpson's rule on the unit interval.
+fn simpson(point: u32) -> f64 {
+    let weight = match point {
+        0 | PANELS => 1.0,
+        _ if point % 2 == 1 => 4.0,
+        _ => 2.0,
+    };
+    weight / (3.0 * f64::from(PANELS))
 }
 
 type Depth = (f64, [f64; 2]);
@@ -113,24 +201,25 @@ pub(super) fn stiffness(body: &Body) -> f64 {
     1.5 * body.lattice.normal + 0.5 * body.lattice.shear
 }
 
-/// Forces between a body and a rigid one whose tip is at a depth [m].
-pub(super) fn contact(body: &Body, rigid: Rigid, tip: f64) -> Contact {
+/// Forces between a body and a rigid one in a pose.
+pub(super) fn contact(body: &Body, rigid: Rigid, pose: Pose) -> Contact {
+    let last = body.rows.len().saturating_sub(1);
     match rigid {
-        Rigid::Wall => {
-            let last = body.rows.len().saturating_sub(1);
-            add_up(body, last..=last, |[_, z]| {
-                (z > 0.0).then_some((z, [0.0, -1.0]))
-            })
-        }
+        Rigid::Wall => add_up(body, last..=last, pose, |[_, z]| {
+            (z > 0.0).then_some((z, [0.0, -1.0]))
+        }),
         Rigid::Projectile(shape) => {
             let height = ROW * body.lattice.spacing;
-            let reached = ((tip / height).max(0.0) as usize + 1).min(body.rows.len() - 1);
+            let reached = (pose.deepest(&shape) / height).max(0.0) as usize + 1;
             // Pieces go anywhere.
             let last = match body.softening {
-                Some(_) => body.rows.len() - 1,
-                None => reached,
+                Some(_) => last,
+                None => reached.min(last),
             };
-            add_up(body, 0..=last, |[x, z]| shape.penetration([x, z - tip]))
+            add_up(body, 0..=last, pose, |position| {
+                let (depth, direction) = shape.penetration(pose.point_at(position))?;
+                Some((depth, pose.turned(direction)))
+            })
         }
     }
 }
@@ -138,6 +227,7 @@ pub(super) fn contact(body: &Body, rigid: Rigid, tip: f64) -> Contact {
 fn add_up(
     body: &Body,
     rows: std::ops::RangeInclusive<usize>,
+    pose: Pose,
     penetration: impl Fn([f64; 2]) -> Option<(f64, [f64; 2])>,
 ) -> Contact {
     let stiffness = stiffness(body);
@@ -147,16 +237,21 @@ fn add_up(
             if body.rows[row].mass[place] == 0.0 {
                 continue;
             }
-            let Some((depth, [x, z])) = penetration(body.position(row, place)) else {
+            let position = body.position(row, place);
+            let Some((depth, [x, z])) = penetration(position) else {
                 continue;
             };
             let force = stiffness * depth;
-            contact.force += force * z;
+            let [across, along] = [force * x, force * z];
+            contact.force[0] += across;
+            contact.force[1] += along;
+            contact.moment +=
+                (position[0] - pose.tip[0]) * along - (position[1] - pose.tip[1]) * across;
             contact.energy += 0.5 * force * depth;
             contact.loads.push(Load {
                 row,
                 place,
-                force: [force * x, force * z],
+                force: [across, along],
                 moment: 0.0,
             });
         }

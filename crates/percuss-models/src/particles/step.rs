@@ -188,7 +188,7 @@ impl Body {
         }
     }
 
-    /// Places of a row that cannot move along the direction of impact, if there are any.
+    /// Places of a row that cannot move along the normal of the struck face, if there are any.
     pub(super) fn held_places(&self, row: usize) -> Option<Range<usize>> {
         let (held, places) = self.held.as_ref()?;
         (*held == row).then(|| places.clone())

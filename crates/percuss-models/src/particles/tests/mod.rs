@@ -3,6 +3,7 @@
 mod contact;
 mod cracks;
 mod debris;
+mod flight;
 mod fracture;
 mod lattice;
 mod motion;
