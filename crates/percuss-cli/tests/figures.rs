@@ -5,6 +5,7 @@
 use std::{
     collections::{BTreeMap, BTreeSet},
     env, fs,
+    io::BufReader,
     path::{Path, PathBuf},
     process::Command,
 };
@@ -82,6 +83,21 @@ fn name(path: &Path) -> String {
     path.file_name().unwrap().to_string_lossy().into_owned()
 }
 
+/// Whether two files are equal, or PNG files of the same pixels.
+fn shows_the_same(stored: &Path, drawn: &Path) -> bool {
+    let read = |path: &Path| fs::read(path).ok();
+    read(stored) == read(drawn) || pixels(stored).is_some_and(|of| Some(of) == pixels(drawn))
+}
+
+/// Width and pixels of a PNG file.
+fn pixels(path: &Path) -> Option<(u32, Vec<u8>)> {
+    let file = BufReader::new(fs::File::open(path).ok()?);
+    let mut reader = png::Decoder::new(file).read_info().ok()?;
+    let mut bytes = vec![0; reader.output_buffer_size()?];
+    let frame = reader.next_frame(&mut bytes).ok()?;
+    Some((frame.width, bytes))
+}
+
 impl Entry {
     fn is_drawn(&self) -> bool {
         self.script.is_none() && self.digest.is_none()
@@ -137,7 +153,7 @@ impl Entry {
             .map(|place| format!("{place}: no longer drawn"))
             .collect();
         for (place, file) in drawn {
-            if fs::read(root().join(&place)).ok() != fs::read(file).ok() {
+            if !shows_the_same(&root().join(&place), &file) {
                 stale.push(place);
             }
         }

@@ -1,13 +1,13 @@
 //! Pictures as PNG files.
 
-use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Filter};
+use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter};
 use resvg::tiny_skia::Pixmap;
 
 use crate::ReportError;
 
 /// The PNG file of an opaque picture; an error names it.
 ///
-/// Drawings consist of even areas, whose bytes repeat as they are: filters would cost half of the time and make the file larger.
+/// The fastest level with the `Up` filter takes a fifth of the time of the usual one, and files are half as large again.
 pub(crate) fn encode(name: &str, picture: &Pixmap) -> Result<Vec<u8>, ReportError> {
     let failure = |error: EncodingError| ReportError::Figure {
         name: name.to_owned(),
@@ -22,8 +22,8 @@ pub(crate) fn encode(name: &str, picture: &Pixmap) -> Result<Vec<u8>, ReportErro
     let mut encoder = Encoder::new(&mut bytes, picture.width(), picture.height());
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
-    encoder.set_compression(Compression::Balanced);
-    encoder.set_filter(Filter::NoFilter);
+    encoder.set_deflate_compression(DeflateCompression::Level(1));
+    encoder.set_filter(Filter::Up);
     let mut writer = encoder.write_header().map_err(failure)?;
     writer.write_image_data(&colors).map_err(failure)?;
     writer.finish().map_err(failure)?;
