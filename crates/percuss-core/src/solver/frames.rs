@@ -24,6 +24,15 @@ pub struct Frame<'a> {
     pub fields: Fields<'a>,
 }
 
+/// Bond between two particles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bond {
+    /// Its ends: numbers of particles, counted over all bodies that a frame has.
+    pub ends: [u32; 2],
+    /// 0 of a whole bond, 1 of a broken one.
+    pub damage: f32,
+}
+
 /// Where a model has its fields.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
@@ -34,6 +43,8 @@ pub enum Fields<'a> {
         cell: f64,
         /// Particles of each body: the projectile, then the layers of the target.
         bodies: Vec<Cow<'a, [Particle]>>,
+        /// Bonds between particles; none of a model that has none.
+        bonds: Vec<Bond>,
     },
     /// In elements along the axis, from the projectile's tail to the rear face of the target.
     Elements(Vec<ElementState>),

@@ -261,6 +261,7 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
         Fields::Particles {
             cell: self.grid.mesh.cell,
             bodies: bodies.map(|body| body.particles().collect()).collect(),
+            bonds: Vec::new(),
         }
     }
 

@@ -1,7 +1,10 @@
 //! Stresses of particles, and fields for pictures and files.
 
 use super::{body::Body, lattice::ROW, run::PlaneImpact, shape::Shape};
-use crate::{history::ElementState, solver::Particle};
+use crate::{
+    history::ElementState,
+    solver::{Particle, frames::Bond},
+};
 
 /// Points from the axis of a rigid projectile to its side.
 const COLUMNS: u32 = 10;
@@ -42,6 +45,26 @@ pub(super) fn whole(body: &Body) -> Vec<Particle> {
     body.particles()
         .map(|(row, place)| particle(body, row, place))
         .collect()
+}
+
+/// All bonds of a body, whose particles are counted from a number on.
+pub(super) fn bonds(body: &Body, first: usize) -> Vec<Bond> {
+    let mut numbers = vec![0; body.rows.len() * body.stride];
+    for (number, (row, place)) in body.particles().enumerate() {
+        numbers[row * body.stride + place] = (first + number) as u32;
+    }
+    let of = |bond: (usize, usize, usize)| {
+        let damage = body.softening.map_or(0.0, |law| {
+            let damage = body.damage_of(bond);
+            1.0 - law.integrity(damage.worst, damage.start)
+        });
+        let ends = body.ends(bond);
+        Bond {
+            ends: ends.map(|(row, place)| numbers[row * body.stride + place]),
+            damage: damage as f32,
+        }
+    };
+    body.bonds().map(of).collect()
 }
 
 fn particle(body: &Body, row: usize, place: usize) -> Particle {

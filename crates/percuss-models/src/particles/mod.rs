@@ -40,7 +40,7 @@ use crate::{
 
 /// Memory of a particle with the fields that show it [bytes], twice as much where particles are moved, and particles times steps per second of processor time.
 const WORK: WorkRate = WorkRate {
-    bytes: 350.0,
+    bytes: 560.0,
     rate: 20e6,
 };
 /// Two-dimensional lattice of bonded particles.

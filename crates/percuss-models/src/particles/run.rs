@@ -21,7 +21,7 @@ use crate::{
     options::ParticlesOptions,
     outcome::{Outcome, RunResult, Termination},
     solver::{
-        Control,
+        Control, Particle,
         archive::Archive,
         driver::Drive,
         frames::Fields,
@@ -344,18 +344,18 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
     }
 
     fn fields(&self) -> Fields<'_> {
-        let lattice = Cow::Owned(fields::whole(&self.body));
-        let bodies = match self.rigid {
-            Rigid::Wall => vec![lattice],
-            Rigid::Projectile(shape) => {
-                // Of a long projectile only what a picture of the lattice has room for.
-                let extent = setup::extent(self.scenario);
-                let room = extent.length.max(extent.width);
-                vec![Cow::Owned(fields::rigid(self, &shape, room)), lattice]
-            }
-        };
+        let mut bodies: Vec<Cow<'_, [Particle]>> = Vec::new();
+        if let Rigid::Projectile(shape) = self.rigid {
+            // Of a long projectile only what a picture of the lattice has room for.
+            let extent = setup::extent(self.scenario);
+            let room = extent.length.max(extent.width);
+            bodies.push(Cow::Owned(fields::rigid(self, &shape, room)));
+        }
+        let before = bodies.iter().map(|body| body.len()).sum();
+        bodies.push(Cow::Owned(fields::whole(&self.body)));
         Fields::Particles {
             cell: self.body.lattice.spacing,
+            bonds: fields::bonds(&self.body, before),
             bodies,
         }
     }

@@ -19,7 +19,7 @@ use super::{
     colors::Colors,
     picture::Canvas,
     span::{FieldSpan, usual_range},
-    vtp::{self, Points},
+    vtp_points::{self, Points},
 };
 use crate::{ReportError, caption::caption, png_file, replace_file::replace_file};
 
@@ -160,7 +160,7 @@ fn read(file: &Path, quantity: FieldQuantity) -> Result<Points, ReportError> {
 /// The points in the bytes of a file.
 fn points(bytes: &[u8], file: &Path, quantity: FieldQuantity) -> Result<Points, ReportError> {
     let (array, components, _) = quantity.source();
-    vtp::decode(bytes, array, components).ok_or_else(|| ReportError::Read {
+    vtp_points::decode(bytes, array, components).ok_or_else(|| ReportError::Read {
         path: file.to_owned(),
         reason: "it is damaged or of another program".to_owned(),
     })

@@ -18,6 +18,7 @@ mod series;
 #[cfg(feature = "png")]
 mod span;
 mod vtp;
+mod vtp_points;
 
 use std::path::{Path, PathBuf};
 

@@ -6,7 +6,7 @@ use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 use super::{
     colors::{Colors, LEVELS},
     raster::{self, View},
-    vtp::Points,
+    vtp_points::Points,
 };
 use crate::{
     Axis, Figure, ReportError,

@@ -1,6 +1,6 @@
 //! Pictures of bodies from material points.
 
-use super::{layer::Layer, vtp::Points};
+use super::{layer::Layer, vtp_points::Points};
 
 /// Pixels along an edge of one pixel of the finished picture, which is their mean.
 const FINER: usize = 2;

@@ -1,25 +1,22 @@
 //! Fields as a file of VTK's XML format: PolyData, appended raw data, compressed.
 //!
 //! Everything is in SI units. Points stand at (radius, −depth, 0), so that the axis of symmetry is the vertical one and the projectile
-//! flies down. Material points are vertices; elements along the axis are rectangles of their length and diameter. Values other than
+//! flies down. Material points are vertices, bonds lines; elements along the axis are rectangles of their length and diameter. Values other than
 //! positions and volumes keep twelve bits of their mantissa, better than one part in 4000.
 
-use std::{
-    fmt::Write as _,
-    io::{Read, Write},
-};
+use std::{fmt::Write as _, io::Write};
 
-use flate2::{Compression, read::ZlibDecoder, write::ZlibEncoder};
+use flate2::{Compression, write::ZlibEncoder};
 use percuss::{
     axi::Particle,
-    frames::{Fields, Frame},
+    frames::{Bond, Fields, Frame},
     history::ElementState,
 };
 use rayon::prelude::*;
 
 use super::FieldQuantity;
 
-const MARKER: &[u8] = b"<AppendedData encoding=\"raw\">\n_";
+pub(super) const MARKER: &[u8] = b"<AppendedData encoding=\"raw\">\n_";
 
 /// An array: name, components, and what it takes of a particle.
 type Column = (&'static str, usize, fn(&Particle) -> [f64; 3]);
@@ -43,9 +40,10 @@ fn of(quantity: FieldQuantity, particle: &Particle) -> [f64; 3] {
 }
 
 /// Width and height of a particle's section before the impact.
-const SIDES: &str = "sides";
-const POINTS: &str = "points";
-const BODY: &str = "body";
+pub(super) const SIDES: &str = "sides";
+pub(super) const POINTS: &str = "points";
+pub(super) const BODY: &str = "body";
+const BOND_DAMAGE: &str = "bond_damage";
 
 /// A number of an element with its name.
 type ElementColumn = (&'static str, fn(&ElementState) -> f64);
@@ -85,9 +83,9 @@ pub(crate) fn encode(frame: &Frame<'_>) -> Vec<u8> {
 
 fn encode_particles(frame: &Frame<'_>, fields: &Fields<'_>) -> Vec<u8> {
     let particles: Vec<(usize, &Particle)> = fields.particles().collect();
-    let cell = match fields {
-        Fields::Particles { cell, .. } => *cell,
-        _ => 0.0,
+    let (cell, bonds): (f64, &[Bond]) = match fields {
+        Fields::Particles { cell, bonds, .. } => (*cell, bonds),
+        _ => (0.0, &[]),
     };
     let of = |exact: bool, components: usize, value: &dyn Fn(&Particle) -> [f64; 3]| {
         let entries = particles
@@ -118,13 +116,36 @@ fn encode_particles(frame: &Frame<'_>, fields: &Fields<'_>) -> Vec<u8> {
             "PointData Scalars=\"plastic_strain\" Vectors=\"velocity\"",
             data,
         ),
-        shapes: Shapes {
+        cells: bond_damage(bonds),
+        shapes: std::iter::once(Shapes {
             tag: "Verts",
             count: 1,
             connectivity: integers(0..count as i32),
             offsets: integers(std::iter::once(count as i32)),
-        },
+        })
+        .chain((!bonds.is_empty()).then(|| lines(bonds)))
+        .collect(),
     })
+}
+
+fn lines(bonds: &[Bond]) -> Shapes {
+    let ends = bonds.iter().flat_map(|bond| bond.ends);
+    Shapes {
+        tag: "Lines",
+        count: bonds.len(),
+        connectivity: integers(ends.map(|end| end as i32)),
+        offsets: integers((1..=bonds.len() as i32).map(|line| 2 * line)),
+    }
+}
+
+/// Damage of the bonds, behind a value for the cell of all vertices.
+fn bond_damage(bonds: &[Bond]) -> Vec<Array> {
+    if bonds.is_empty() {
+        return Vec::new();
+    }
+    let damage = bonds.iter().map(|bond| f64::from(bond.damage));
+    let values = floats(std::iter::once(0.0).chain(damage), false);
+    vec![(BOND_DAMAGE, "Float32", 1, values)]
 }
 
 fn encode_elements(frame: &Frame<'_>, elements: &[ElementState]) -> Vec<u8> {
@@ -154,12 +175,13 @@ fn encode_elements(frame: &Frame<'_>, elements: &[ElementState]) -> Vec<u8> {
         constants: &[("TimeValue", frame.time), ("depth", frame.depth)],
         points: (4 * count, floats(places, true)),
         data: ("CellData Scalars=\"plastic_strain\"", data),
-        shapes: Shapes {
+        cells: Vec::new(),
+        shapes: vec![Shapes {
             tag: "Polys",
             count,
             connectivity: integers(0..4 * count as i32),
             offsets: integers((1..=count as i32).map(|element| 4 * element)),
-        },
+        }],
     })
 }
 
@@ -170,10 +192,12 @@ struct File<'a> {
     points: (usize, Vec<u8>),
     /// Start tag of the arrays at points or in cells, and the arrays.
     data: (&'a str, Vec<Array>),
-    shapes: Shapes,
+    /// Arrays in cells beside arrays at points.
+    cells: Vec<Array>,
+    shapes: Vec<Shapes>,
 }
 
-/// Vertices or polygons.
+/// Vertices, lines or polygons.
 struct Shapes {
     tag: &'static str,
     count: usize,
@@ -185,11 +209,14 @@ fn assemble(file: &File<'_>) -> Vec<u8> {
     let (tag, data) = &file.data;
     let mut arrays: Vec<(&str, &str, usize, &[u8])> = data
         .iter()
+        .chain(&file.cells)
         .map(|(name, kind, components, bytes)| (*name, *kind, *components, &**bytes))
         .collect();
     arrays.push((POINTS, "Float32", 3, &file.points.1));
-    arrays.push(("connectivity", "Int32", 1, &file.shapes.connectivity));
-    arrays.push(("offsets", "Int32", 1, &file.shapes.offsets));
+    for shapes in &file.shapes {
+        arrays.push(("connectivity", "Int32", 1, &shapes.connectivity));
+        arrays.push(("offsets", "Int32", 1, &shapes.offsets));
+    }
     let blocks: Vec<Vec<u8>> = arrays
         .par_iter()
         .map(|(_, _, _, bytes)| block(bytes))
@@ -213,22 +240,34 @@ fn assemble(file: &File<'_>) -> Vec<u8> {
             r#"<DataArray type="Float64" Name="{name}" NumberOfTuples="1" format="ascii">{value:e}</DataArray>"#
         );
     }
-    let shapes = &file.shapes;
-    let number = |kind: &str| if shapes.tag == kind { shapes.count } else { 0 };
+    let number = |kind: &str| {
+        let of_kind = file.shapes.iter().find(|shapes| shapes.tag == kind);
+        of_kind.map_or(0, |shapes| shapes.count)
+    };
+    let mut tags = tags.into_iter();
+    let mut next = |count: usize| {
+        let some: Vec<String> = tags.by_ref().take(count).collect();
+        some.join("\n")
+    };
     let end = tag.split(' ').next().unwrap_or(tag);
     let _ = write!(
         text,
-        "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" \
-         NumberOfPolys=\"{}\">\n<{tag}>\n{}\n</{end}>\n\
-         <Points>\n{}\n</Points>\n<{shape}>\n{}\n</{shape}>\n</Piece>\n</PolyData>\n",
+        "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" \
+         NumberOfPolys=\"{}\">\n<{tag}>\n{}\n</{end}>\n",
         file.points.0,
         number("Verts"),
+        number("Lines"),
         number("Polys"),
-        tags[..data.len()].join("\n"),
-        tags[data.len()],
-        tags[data.len() + 1..].join("\n"),
-        shape = shapes.tag,
+        next(data.len()),
     );
+    if !file.cells.is_empty() {
+        let _ = writeln!(text, "<CellData>\n{}\n</CellData>", next(file.cells.len()));
+    }
+    let _ = writeln!(text, "<Points>\n{}\n</Points>", next(1));
+    for shapes in &file.shapes {
+        let _ = writeln!(text, "<{0}>\n{1}\n</{0}>", shapes.tag, next(2));
+    }
+    text += "</Piece>\n</PolyData>\n";
     let mut bytes = text.into_bytes();
     bytes.extend(MARKER);
     bytes.extend(blocks.concat());
@@ -259,137 +298,19 @@ fn block(bytes: &[u8]) -> Vec<u8> {
     block
 }
 
-/// What a picture needs of a file.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Points {
-    pub(crate) time: f64,
-    pub(crate) depth: f64,
-    /// Radius and depth [m].
-    pub(crate) places: Vec<[f32; 2]>,
-    pub(crate) bodies: Vec<u8>,
-    /// Side of the square that a particle fills in the plane of the picture [m].
-    pub(crate) sizes: Vec<f32>,
-    /// Value of the array asked for: its size where it is a vector.
-    pub(crate) values: Vec<f32>,
-}
-
-/// Header and appended data of a file; `None` when it is none.
-fn parts(file: &[u8]) -> Option<(&str, &[u8])> {
-    let start = file.windows(MARKER.len()).position(|part| part == MARKER)?;
-    let text = std::str::from_utf8(&file[..start]).ok()?;
-    Some((text, &file[start + MARKER.len()..]))
-}
-
-/// Text between a tag and a character.
-fn after<'a>(text: &'a str, tag: &str, end: char) -> Option<&'a str> {
-    let from = text.find(tag)? + tag.len();
-    text[from..].split(end).next()
-}
-
-/// Bytes of an array of a file.
-fn bytes(file: &[u8], name: &str, components: usize) -> Option<Vec<u8>> {
-    let (text, data) = parts(file)?;
-    let tag =
-        format!(r#"Name="{name}" NumberOfComponents="{components}" format="appended" offset=""#);
-    let offset: usize = after(text, &tag, '"')?.parse().ok()?;
-    let size = u32::from_le_bytes(data.get(offset + 12..offset + 16)?.try_into().ok()?);
-    let packed = data.get(offset + 16..offset + 16 + size as usize)?;
-    let mut bytes = Vec::new();
-    ZlibDecoder::new(packed).read_to_end(&mut bytes).ok()?;
-    Some(bytes)
-}
-
-/// Numbers of an array of a file.
-fn values(file: &[u8], name: &str, components: usize) -> Option<Vec<f32>> {
-    let bytes = bytes(file, name, components)?;
-    let (entries, _) = bytes.as_chunks::<4>();
-    let values = entries.iter().map(|entry| f32::from_le_bytes(*entry));
-    Some(values.collect())
-}
-
-/// Reads a file of material points; `None` when it is none.
-pub(crate) fn decode(file: &[u8], array: &str, components: usize) -> Option<Points> {
-    let (text, _) = parts(file)?;
-    let number = |name: &str| -> Option<f64> {
-        let tag = format!(r#"Name="{name}" NumberOfTuples="1" format="ascii">"#);
-        after(text, &tag, '<')?.parse().ok()
-    };
-    let floats = |name: &str, components: usize| values(file, name, components);
-    let places: Vec<[f32; 2]> = floats(POINTS, 3)?
-        .chunks_exact(3)
-        .map(|point| [point[0], -point[1]])
-        .collect();
-    let volumes = floats("volume", 1)?;
-    // A plane body, which stands on both sides of the axis, has its area for a volume.
-    let is_plane = places.iter().any(|[across, _]| *across < 0.0);
-    let size = |([radius, _], volume): (&[f32; 2], &f32)| match is_plane {
-        true => volume.sqrt(),
-        false => (volume / (2.0 * std::f32::consts::PI * radius)).sqrt(),
-    };
-    let points = Points {
-        time: number("TimeValue")?,
-        depth: number("depth")?,
-        sizes: places.iter().zip(&volumes).map(size).collect(),
-        places,
-        bodies: bytes(file, BODY, 1)?,
-        values: floats(array, components)?
-            .chunks_exact(components)
-            .map(|value| match value {
-                [value] => *value,
-                vector => vector.iter().map(|entry| entry * entry).sum::<f32>().sqrt(),
-            })
-            .collect(),
-    };
-    let sides: Vec<[f32; 2]> = floats(SIDES, 2)?
-        .chunks_exact(2)
-        .map(|pair| [pair[0], pair[1]])
-        .collect();
-    Some(points.in_equal_parts(&sides))
-}
-
-impl Points {
-    /// Large particles as several of the size that most have: a picture closes gaps of that size.
-    fn in_equal_parts(self, sides: &[[f32; 2]]) -> Self {
-        /// Along a side: beyond, no picture shows a difference.
-        const MOST: f32 = 64.0;
-        let mut smallest: Vec<f32> = sides.iter().map(|[a, b]| a.min(*b)).collect();
-        let middle = smallest.len() / 2;
-        if middle == 0 {
-            return self;
-        }
-        let usual = *smallest.select_nth_unstable_by(middle, f32::total_cmp).1;
-        let mut parts = Self {
-            time: self.time,
-            depth: self.depth,
-            ..Self::default()
-        };
-        for (index, [radius, depth]) in self.places.iter().enumerate() {
-            let [across, along] = sides[index].map(|side| match side > 0.0 {
-                true => (side / usual).round().clamp(1.0, MOST),
-                false => 1.0,
-            });
-            for part in 0..(across * along) as usize {
-                let [column, row] = [part % across as usize, part / across as usize];
-                let off =
-                    |part: usize, count: f32, side: f32| ((part as f32 + 0.5) / count - 0.5) * side;
-                parts.places.push([
-                    radius + off(column, across, sides[index][0]),
-                    depth + off(row, along, sides[index][1]),
-                ]);
-                parts.bodies.push(self.bodies[index]);
-                parts
-                    .sizes
-                    .push(self.sizes[index] / (across * along).sqrt());
-                parts.values.push(self.values[index]);
-            }
-        }
-        parts
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{
+        super::vtp_points::{decode, values},
+        *,
+    };
+
+    fn bond(from: u32, to: u32, damage: f32) -> Bond {
+        Bond {
+            ends: [from, to],
+            damage,
+        }
+    }
 
     #[test]
     fn a_file_gives_back_what_went_in() {
@@ -412,9 +333,13 @@ mod tests {
             fields: Fields::Particles {
                 cell: 1e-4,
                 bodies: bodies.iter().map(|body| body[..].into()).collect(),
+                bonds: vec![bond(0, 1, 0.5), bond(1, 2, 1.0)],
             },
         };
         let file = encode(&frame);
+        let text = String::from_utf8_lossy(&file);
+        assert!(text.contains(r#"NumberOfVerts="1" NumberOfLines="2""#));
+        assert_eq!(values(&file, BOND_DAMAGE, 1).unwrap(), [0.0, 0.5, 1.0]);
         let strain = decode(&file, "plastic_strain", 1).unwrap();
         assert_eq!((strain.time, strain.depth), (1.5e-6, 2e-3));
         assert_eq!(strain.places, [[2e-3, 5e-3]; 3]);

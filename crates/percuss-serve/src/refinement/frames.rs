@@ -88,7 +88,7 @@ impl<'a> FrameEncoder<'a> {
 
     /// A frame as head and body, if it is one of those that are kept.
     pub(super) fn encode(&mut self, frame: &Frame<'_>) -> Option<(FrameHead, Vec<u8>)> {
-        let Fields::Particles { cell, bodies } = &frame.fields else {
+        let Fields::Particles { cell, bodies, .. } = &frame.fields else {
             return None;
         };
         let first = frame.step == 0;
