@@ -8,6 +8,7 @@ use crate::{
     particles::{
         body::{Body, Rows},
         cracks::{Front, Notches},
+        fields,
         fracture::{BondKind, Softening},
         lattice::ROW,
         packing::Packing,
@@ -55,10 +56,15 @@ fn a_notch_cuts_the_bonds_that_it_crosses_and_no_others() {
             (cracks.length, cracks.tip_speed, cracks.angle),
             (0.0, None, None)
         );
-        for bond in body.bonds() {
-            let [a, b] = body
-                .ends(bond)
-                .map(|(row, place)| body.reference(row, place));
+        // In files the same bonds are broken, between the particles as numbered there.
+        let shown = fields::bonds(&body, 100);
+        let numbers: Vec<(usize, usize)> = body.particles().collect();
+        assert_eq!(shown.len(), body.bonds().count());
+        for (bond, shown) in body.bonds().zip(shown) {
+            let ends = shown.ends.map(|end| numbers[end as usize - 100]);
+            assert_eq!(ends, body.ends(bond));
+            assert_eq!(shown.damage == 1.0, body.is_broken(bond));
+            let [a, b] = ends.map(|(row, place)| body.reference(row, place));
             let at = (place - a[0]) / (b[0] - a[0]);
             let crosses = (0.0..1.0).contains(&at) && a[1] + at * (b[1] - a[1]) <= end;
             assert_eq!(body.is_broken(bond), crosses, "{a:?} {b:?}");
