@@ -143,6 +143,10 @@ pub struct RunResult {
     pub permanent_depth: Option<f64>,
     /// Mean speed of what is left of the projectile at the end, forward positive [m/s].
     pub residual_velocity: Option<f64>,
+    /// Angle at the end of a free projectile's path to the normal into the target [rad].
+    pub flight_direction: Option<f64>,
+    /// Angle at the end of its axis to that normal [rad].
+    pub projectile_axis: Option<f64>,
     /// Impact velocity above which the target is perforated [m/s].
     pub ballistic_limit: Option<f64>,
     /// Range that the model gives its main number: where its own constants are uncertain.

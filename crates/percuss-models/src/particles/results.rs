@@ -128,6 +128,9 @@ pub(super) fn complete(run: &PlaneImpact<'_>, result: &mut RunResult, monitor: &
     if run.rigid != Rigid::Wall {
         result.largest_depth = Some(monitor.largest_depth);
     }
+    if run.inertia.moment.is_some() {
+        add_directions(run, result);
+    }
     if run.body.softening.is_some() {
         add_cracks(run, result);
     }
@@ -180,7 +183,8 @@ fn details(run: &PlaneImpact<'_>) -> Vec<Detail> {
         ),
     ];
     if run.inertia.moment.is_some() {
-        details.extend(flight_details(run));
+        let spin = -run.state.flight.spin;
+        details.push(detail("spin of the projectile", "rad/s", spin));
     }
     if let Some(softening) = &body.softening {
         let pieces = body.pieces();
@@ -193,24 +197,12 @@ fn details(run: &PlaneImpact<'_>) -> Vec<Detail> {
     details
 }
 
-/// Where a projectile that came at an angle goes.
-fn flight_details(run: &PlaneImpact<'_>) -> [Detail; 3] {
+/// Adds where a projectile that came at an angle goes.
+fn add_directions(run: &PlaneImpact<'_>, result: &mut RunResult) {
     let flight = &run.state.flight;
     let [[u, w], [cosine, sine]] = [flight.velocity, flight.turn];
-    let detail = |name, unit, value| Detail { name, unit, value };
-    [
-        detail(
-            "direction of flight, from the normal into the target",
-            "deg",
-            u.atan2(w).to_degrees(),
-        ),
-        detail(
-            "axis of the projectile, from the normal into the target",
-            "deg",
-            (-sine).atan2(cosine).to_degrees(),
-        ),
-        detail("spin of the projectile", "rad/s", -flight.spin),
-    ]
+    result.flight_direction = Some(u.atan2(w));
+    result.projectile_axis = Some((-sine).atan2(cosine));
 }
 
 fn warnings(run: &PlaneImpact<'_>, result: &RunResult) -> Vec<String> {

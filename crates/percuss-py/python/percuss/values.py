@@ -30,6 +30,8 @@ class ResultValues:
     largest_depth_mm: float | None
     permanent_depth_mm: float | None
     residual_velocity_m_s: float | None
+    flight_direction_deg: float | None
+    projectile_axis_deg: float | None
     ballistic_limit_m_s: float | None
     band: Record | None
     projectile_final_length_mm: float | None

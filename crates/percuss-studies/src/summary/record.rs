@@ -123,6 +123,14 @@ result_record! {
         residual_velocity_m_s: Option<f64>
             = number("residual velocity", Unit::M_S, Main).in_statistics(ZeroWhereStopped), |_, run| run?.residual_velocity;
 
+        /// Direction of flight at the end, to the normal into the target, of a projectile that is free to turn.
+        flight_direction_deg: Option<f64>
+            = number("direction of flight", Unit::DEG, Result), |_, run| run?.flight_direction;
+
+        /// Direction of its axis at the end, to the same normal.
+        projectile_axis_deg: Option<f64>
+            = number("direction of the projectile's axis", Unit::DEG, Result), |_, run| run?.projectile_axis;
+
         /// Impact velocity above which the target is perforated.
         ballistic_limit_m_s: Option<f64>
             = number("ballistic limit", Unit::M_S, Main), |_, run| run?.ballistic_limit;
