@@ -49,10 +49,7 @@ impl Shape {
     /// The depth is the distance to the surface, so that the force `k δ` has a potential everywhere.
     pub(super) fn penetration(&self, [x, z]: [f64; 2]) -> Option<(f64, [f64; 2])> {
         let (radius, side) = (self.radius, if x < 0.0 { -1.0 } else { 1.0 });
-        let shank = nearer(
-            (radius - x.abs(), [side, 0.0]),
-            (z + self.length, [0.0, -1.0]),
-        );
+        let shank = (radius - x.abs(), [side, 0.0]);
         let below_shoulder = z + self.nose_length();
         let nearest = match self.nose {
             Nose::Flat => nearer(shank, (-z, [0.0, 1.0])),
@@ -144,24 +141,22 @@ impl Shape {
         let side = if x < 0.0 { -1.0 } else { 1.0 };
         let of = |point: [f64; 2]| x * point[0] + z * point[1];
         let shoulder = [side * radius, -nose];
-        let mut points = vec![[side * radius, -self.length], shoulder];
-        match self.nose {
-            Nose::Flat => {}
-            Nose::Cone { .. } => points.push([0.0; 2]),
-            Nose::Hemisphere | Nose::Ogive { .. } => {
-                let arc = match self.nose {
-                    Nose::Ogive { crh } => 2.0 * crh * radius,
-                    _ => radius,
-                };
-                let on_arc = [side * (radius - arc) + arc * x, arc * z - nose];
-                points.push([0.0; 2]);
-                if z >= 0.0 && side * on_arc[0] >= 0.0 {
-                    points.push(on_arc);
-                }
-            }
+        let tip = match self.nose {
+            Nose::Flat => shoulder,
+            _ => [0.0; 2],
+        };
+        let arc = match self.nose {
+            Nose::Flat | Nose::Cone { .. } => 0.0,
+            Nose::Hemisphere => radius,
+            Nose::Ogive { crh } => 2.0 * crh * radius,
+        };
+        // The point of the arc whose tangent is across the direction, if the arc goes so far.
+        let mut on_arc = [side * (radius - arc) + arc * x, arc * z - nose];
+        if arc == 0.0 || z < 0.0 || side * on_arc[0] < 0.0 {
+            on_arc = tip;
         }
         let farther = |a: [f64; 2], b: [f64; 2]| if of(b) > of(a) { b } else { a };
-        points
+        [shoulder, tip, on_arc]
             .into_iter()
             .fold([side * radius, -self.length], farther)
     }
