@@ -89,13 +89,13 @@ fn shows_the_same(stored: &Path, drawn: &Path) -> bool {
     read(stored) == read(drawn) || pixels(stored).is_some_and(|of| Some(of) == pixels(drawn))
 }
 
-/// Width and pixels of a PNG file.
-fn pixels(path: &Path) -> Option<(u32, Vec<u8>)> {
+/// Width, kind and values of the pixels of a PNG file.
+fn pixels(path: &Path) -> Option<(u32, png::ColorType, Vec<u8>)> {
     let file = BufReader::new(fs::File::open(path).ok()?);
     let mut reader = png::Decoder::new(file).read_info().ok()?;
     let mut bytes = vec![0; reader.output_buffer_size()?];
     let frame = reader.next_frame(&mut bytes).ok()?;
-    Some((frame.width, bytes))
+    Some((frame.width, frame.color_type, bytes))
 }
 
 impl Entry {
@@ -182,6 +182,29 @@ impl Entry {
         });
         format!("{hash:016x}")
     }
+}
+
+/// One value of one pixel makes another picture; how a picture is packed does not.
+#[test]
+fn pictures_differ_by_one_pixel() {
+    let folder = TempDir::new().unwrap();
+    let picture = |name: &str, value: u8, filter: png::Filter| {
+        let path = folder.path().join(name);
+        let mut encoder = png::Encoder::new(fs::File::create(&path).unwrap(), 3, 2);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_filter(filter);
+        let mut bytes = [200; 18];
+        bytes[10] = value;
+        let mut writer = encoder.write_header().unwrap();
+        writer.write_image_data(&bytes).unwrap();
+        path
+    };
+    let one = picture("one.png", 7, png::Filter::NoFilter);
+    let packed = picture("packed.png", 7, png::Filter::Up);
+    let other = picture("other.png", 8, png::Filter::NoFilter);
+    assert_ne!(fs::read(&one).unwrap(), fs::read(&packed).unwrap());
+    assert!(shows_the_same(&one, &packed) && !shows_the_same(&one, &other));
+    assert!(!shows_the_same(&one, &folder.path().join("missing.png")));
 }
 
 #[test]

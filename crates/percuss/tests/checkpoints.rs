@@ -22,6 +22,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("plug that damage cuts out", "axi", CUT),
     ("lattice under a rigid nose", "particles", LATTICE),
     ("pieces of a lattice", "particles", PIECES),
+    ("pieces at an angle", "particles", OBLIQUE),
     ("cracks from a notch", "particles", NOTCHED),
     ("disc", "particles", DISC),
     ("bonds that fail by their stress", "particles", BY_STRESS),
@@ -76,6 +77,14 @@ const LATTICE: &str = r#"
 const PIECES: &str = concat!(
     r#"
     projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "20 m/s", nose = "hemisphere" }
+    target = { material = "brittle", thickness = "5 mm", back_face = "free" }
+    particles = { spacing = "0.7 mm", width = "40 mm", end_time = "40 us" }
+"#,
+    hard_and_brittle!()
+);
+const OBLIQUE: &str = concat!(
+    r#"
+    projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "30 m/s", nose = "hemisphere", obliquity = "40 deg" }
     target = { material = "brittle", thickness = "5 mm", back_face = "free" }
     particles = { spacing = "0.7 mm", width = "40 mm", end_time = "40 us" }
 "#,
@@ -209,7 +218,7 @@ fn every_solver_continues_from_a_checkpoint_with_the_same_bits() {
 /// Bonds that break, pieces that meet, notches: none of it depends on how the work is shared.
 #[test]
 fn cracks_have_the_same_bits_on_any_number_of_threads() {
-    for text in [PIECES, NOTCHED, DISC, BY_STRESS] {
+    for text in [PIECES, OBLIQUE, NOTCHED, DISC, BY_STRESS] {
         let scenario = scenario(text);
         let on = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);

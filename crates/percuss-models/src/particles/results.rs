@@ -183,8 +183,8 @@ fn details(run: &PlaneImpact<'_>) -> Vec<Detail> {
         ),
     ];
     if run.inertia.moment.is_some() {
-        let spin = -run.state.flight.spin;
-        details.push(detail("spin of the projectile", "rad/s", spin));
+        let rate = -run.state.flight.spin;
+        details.push(detail("angular velocity of the projectile", "rad/s", rate));
     }
     if let Some(softening) = &body.softening {
         let pieces = body.pieces();

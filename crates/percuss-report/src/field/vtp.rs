@@ -144,7 +144,8 @@ fn bond_damage(bonds: &[Bond]) -> Vec<Array> {
         return Vec::new();
     }
     let damage = bonds.iter().map(|bond| f64::from(bond.damage));
-    let values = floats(std::iter::once(0.0).chain(damage), false);
+    // Rounded, a bond that nearly fails would look broken.
+    let values = floats(std::iter::once(0.0).chain(damage), true);
     vec![(BOND_DAMAGE, "Float32", 1, values)]
 }
 
