@@ -192,8 +192,10 @@ pub struct RunResult {
 pub struct Cracks {
     /// Bonds that are broken, without those of notches.
     pub broken_bonds: usize,
-    /// Length of a straight crack that takes as many bonds [m].
-    pub length: f64,
+    /// Length of a straight crack that takes as many bonds, of a plane body [m].
+    pub length: Option<f64>,
+    /// Area of a plane crack that takes as many bonds, of a body in space [m2].
+    pub area: Option<f64>,
     /// Mean speed of the farthest crack tip from a tenth to nine tenths of its way [m/s].
     pub tip_speed: Option<f64>,
     /// Angle between the cracks of the notches and the notches, the mean over them [rad].

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::{
+    bonded::Bonded,
     fracture::Softening,
     lattice::{DIRECTIONS, Lattice, ROW},
     packing::{Packing, facet_weight},
@@ -106,7 +107,7 @@ impl Body {
         // A particle alone at the rim belongs to no triangle: the first row that is there touches.
         let top = disc
             .particles()
-            .map(|(row, place)| disc.reference(row, place)[1]);
+            .map(|(row, place)| disc.rest_place(row, place)[1]);
         disc.origin[1] = -top.fold(f64::INFINITY, f64::min).min(radius);
         Ok(disc)
     }
@@ -235,7 +236,7 @@ impl Body {
     }
 
     fn triangle_area(&self, corners: [(usize, usize); 3]) -> f64 {
-        let [a, b, c] = corners.map(|(row, place)| self.reference(row, place));
+        let [a, b, c] = corners.map(|(row, place)| self.rest_place(row, place));
         0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
     }
 
@@ -255,7 +256,7 @@ impl Body {
     }
 
     fn measured(&self, row: usize, place: usize, kind: usize) -> ([f64; 2], f64) {
-        let (other_row, other) = self.other_end(row, place, kind);
+        let (other_row, other) = self.end_of(row, place, kind);
         let spacing = self.lattice.spacing;
         if other_row >= self.rows.len() || other >= self.stride {
             return (DIRECTIONS[kind], spacing);
@@ -300,7 +301,7 @@ impl Body {
         let Some(row) = (0..self.rows.len()).rev().find(has_particles) else {
             return;
         };
-        let inside = |place: &usize| self.reference(row, *place)[0].abs() <= half_width;
+        let inside = |place: &usize| self.rest_place(row, *place)[0].abs() <= half_width;
         let mut places = (1..self.stride - 1).filter(inside);
         if let Some(first) = places.next() {
             let last = places.next_back().unwrap_or(first);
@@ -321,7 +322,7 @@ impl Body {
     }
 
     /// Position of a particle before the impact [m].
-    pub(super) fn reference(&self, row: usize, place: usize) -> [f64; 2] {
+    pub(super) fn rest_place(&self, row: usize, place: usize) -> [f64; 2] {
         let column = place as f64 - 1.0 + 0.5 * (row % 2) as f64;
         let spacing = self.lattice.spacing;
         let make = &self.rows[row];
@@ -335,25 +336,6 @@ impl Body {
         ]
     }
 
-    /// Position of a particle now [m].
-    pub(super) fn position(&self, row: usize, place: usize) -> [f64; 2] {
-        let [x, z] = self.reference(row, place);
-        let state = &self.state[row];
-        [x + state.x[place], z + state.z[place]]
-    }
-
-    /// Rows and places of all particles, in order.
-    pub(super) fn particles(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.rows.iter().enumerate().flat_map(|(row, make)| {
-            let there = make
-                .mass
-                .iter()
-                .enumerate()
-                .filter(|(_, mass)| **mass > 0.0);
-            there.map(move |(place, _)| (row, place))
-        })
-    }
-
     /// Gives all particles a velocity along the normal of the struck face [m/s].
     pub(super) fn launch(&mut self, velocity: f64) {
         for (row, motion) in self.rows.iter().zip(&mut self.motion) {
@@ -363,10 +345,5 @@ impl Body {
                 }
             }
         }
-    }
-
-    /// Mass of all particles [kg per m].
-    pub(super) fn mass(&self) -> f64 {
-        self.rows.iter().flat_map(|row| &row.mass).sum()
     }
 }

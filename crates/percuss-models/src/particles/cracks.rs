@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::body::Body;
+use super::{
+    body::Body,
+    bonded::{At, Bond, Bonded, norm, way},
+};
 use crate::outcome::Cracks;
-
-/// First row, place and kind of a bond.
-type Bond = (usize, usize, usize);
 
 /// Distance from the tip of a notch within which its cracks start, in spacings.
 const START: f64 = 2.0;
@@ -22,8 +22,8 @@ const MOST: usize = 4096;
 pub(super) struct Front {
     /// Bonds that are broken, without those of notches.
     pub(super) broken: usize,
-    /// Length of a straight crack that takes as many [m].
-    pub(super) length: f64,
+    /// Length [m] of a straight crack that takes as many, or area of a plane one [m2].
+    pub(super) size: f64,
     /// Largest distance of a broken bond of a crack from where it starts [m].
     pub(super) reach: f64,
     /// Times at which the distance grew, and the distance then [s, m].
@@ -32,24 +32,23 @@ pub(super) struct Front {
 
 /// The notches of a run.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Notches {
+pub(super) struct Notches<const D: usize> {
     /// Ends of each: where it starts, and its tip [m].
-    ends: Vec<[[f64; 2]; 2]>,
+    ends: Vec<[[f64; D]; 2]>,
     /// Whether each is a slot, which no bond crosses.
     slots: Vec<bool>,
     /// Bonds that they cut, in order.
     cut: Vec<Bond>,
     /// Particles from which the cracks of each notch start.
-    starts: Vec<Vec<(usize, usize)>>,
+    starts: Vec<Vec<At>>,
 }
 
-impl Notches {
+impl Notches<2> {
     /// The notches of a body that they are cut into: ends of each, and whether it is a slot.
     pub(super) fn of(body: &Body, notches: &[([[f64; 2]; 2], bool)]) -> Self {
         let cut: Vec<Bond> = body.bonds().filter(|&bond| body.is_broken(bond)).collect();
         let near = START * body.lattice.spacing;
-        let is_near =
-            |&(row, place): &(usize, usize), tip| distance(body.reference(row, place), tip) < near;
+        let is_near = |&(row, place): &At, tip| norm(way(body.reference(row, place), tip)) < near;
         let of_tip = |&([_, tip], is_slot): &([[f64; 2]; 2], bool)| match is_slot {
             true => body.particles().filter(|at| is_near(at, tip)).collect(),
             false => {
@@ -74,23 +73,24 @@ impl Notches {
         let idle = (0..self.ends.len()).filter(is_idle);
         idle.map(|index| index + 1).collect()
     }
+}
 
+impl<const D: usize> Notches<D> {
     fn is_cut(&self, bond: Bond) -> bool {
         self.cut.binary_search(&bond).is_ok()
     }
 
     /// Broken bond of the crack from the tip of each notch that is farthest from the tip, as the way to it [m]; none where no crack has started.
-    fn farthest(&self, body: &Body) -> Vec<Option<[f64; 2]>> {
-        let of = |([_, tip], starts): (&[[f64; 2]; 2], &Vec<(usize, usize)>)| {
-            let mut farthest: Option<[f64; 2]> = None;
+    fn farthest(&self, body: &impl Bonded<D>) -> Vec<Option<[f64; D]>> {
+        let of = |([_, tip], starts): (&[[f64; D]; 2], &Vec<At>)| {
+            let mut farthest: Option<[f64; D]> = None;
             body.follow(starts, |bond| {
                 if self.is_cut(bond) {
                     return false;
                 }
-                let middle = body.middle(bond);
-                let way = [middle[0] - tip[0], middle[1] - tip[1]];
-                let is_farther = farthest.is_none_or(|old| norm(way) > norm(old));
-                farthest = if is_farther { Some(way) } else { farthest };
+                let found = way(*tip, body.middle(bond));
+                let is_farther = farthest.is_none_or(|old| norm(found) > norm(old));
+                farthest = if is_farther { Some(found) } else { farthest };
                 true
             });
             farthest
@@ -99,13 +99,15 @@ impl Notches {
     }
 
     /// Angle between the notches and the ways to the ends of their cracks, the mean over them [rad].
-    fn angle(&self, body: &Body) -> Option<f64> {
+    fn angle(&self, body: &impl Bonded<D>) -> Option<f64> {
         let ways = self.farthest(body);
         let angles = ways
             .iter()
             .zip(&self.ends)
             .filter_map(|(way, [from, tip])| {
-                let ([a, b], [c, d]) = ((*way)?, [tip[0] - from[0], tip[1] - from[1]]);
+                // In the plane of the first axis and the depth.
+                let [[a, b], [c, d]] = [(*way)?, super::bonded::way(*from, *tip)]
+                    .map(|vector| [vector[0], vector[D - 1]]);
                 Some((a * d - b * c).abs().atan2(a * c + b * d))
             });
         let angles: Vec<f64> = angles.collect();
@@ -115,14 +117,19 @@ impl Notches {
 
 impl Front {
     /// Follows the cracks at a time [s].
-    pub(super) fn follow(&mut self, body: &Body, notches: &Notches, time: f64) {
+    pub(super) fn follow<const D: usize>(
+        &mut self,
+        body: &impl Bonded<D>,
+        notches: &Notches<D>,
+        time: f64,
+    ) {
         let is_new = |bond: &Bond| body.is_broken(*bond) && !notches.is_cut(*bond);
         let broken: Vec<Bond> = body.bonds().filter(is_new).collect();
         if broken.len() == self.broken {
             return;
         }
         self.broken = broken.len();
-        self.length = broken.iter().map(|&bond| body.crack_of(bond)).sum();
+        self.size = broken.iter().map(|&bond| body.crack_of(bond)).sum();
         let reach = match notches.ends.is_empty() {
             true => broken
                 .iter()
@@ -159,11 +166,18 @@ impl Front {
     }
 
     /// Cracks at the end of a run.
-    pub(super) fn results(&self, body: &Body, notches: &Notches) -> Cracks {
+    pub(super) fn results<const D: usize>(
+        &self,
+        body: &impl Bonded<D>,
+        notches: &Notches<D>,
+    ) -> Cracks {
         let pieces = body.pieces();
         let mut cracks = Cracks::default();
         cracks.broken_bonds = self.broken;
-        cracks.length = self.length;
+        match D {
+            2 => cracks.length = Some(self.size),
+            _ => cracks.area = Some(self.size),
+        }
         // Without a notch bonds break in many places at once, which is no way of one tip.
         cracks.tip_speed = self.tip_speed().filter(|_| !notches.ends.is_empty());
         cracks.angle = notches.angle(body);
@@ -174,32 +188,6 @@ impl Front {
 }
 
 impl Body {
-    /// All bonds, in order.
-    pub(super) fn bonds(&self) -> impl Iterator<Item = Bond> + '_ {
-        self.particles()
-            .flat_map(|(row, place)| [0, 1, 2].map(|kind| (row, place, kind)))
-            .filter(|&bond| self.weight(bond) > 0.0)
-    }
-
-    /// Both particles of a bond.
-    pub(super) fn ends(&self, (row, place, kind): Bond) -> [(usize, usize); 2] {
-        [(row, place), self.other_end(row, place, kind)]
-    }
-
-    /// Middle of a bond before the impact [m].
-    fn middle(&self, bond: Bond) -> [f64; 2] {
-        let [a, b] = self
-            .ends(bond)
-            .map(|(row, place)| self.reference(row, place));
-        [0, 1].map(|axis| 0.5 * (a[axis] + b[axis]))
-    }
-
-    /// Length of the crack of a straight cut that a bond stands for [m]: its share of the energy of it.
-    fn crack_of(&self, bond: Bond) -> f64 {
-        let rest = self.rest(bond.0, bond.1, bond.2);
-        0.5 * rest.weight * rest.length
-    }
-
     /// Bonds that a straight cut crosses.
     fn crossed(&self, cut: [[f64; 2]; 2]) -> impl Iterator<Item = Bond> + '_ {
         self.bonds().filter(move |&bond| {
@@ -222,36 +210,6 @@ impl Body {
             }
         }
     }
-
-    /// Goes along broken bonds from particles, as long as `goes_on` takes a bond.
-    fn follow(&self, starts: &[(usize, usize)], mut goes_on: impl FnMut(Bond) -> bool) {
-        let mut seen = vec![false; self.rows.len() * self.stride];
-        let mut open: Vec<(usize, usize)> = starts.to_vec();
-        for &(row, place) in starts {
-            seen[row * self.stride + place] = true;
-        }
-        while let Some((row, place)) = open.pop() {
-            for bond in self.bonds_of(row, place).into_iter().flatten() {
-                if self.weight(bond) == 0.0 || !self.is_broken(bond) || !goes_on(bond) {
-                    continue;
-                }
-                for (row, place) in self.ends(bond) {
-                    let is_seen = &mut seen[row * self.stride + place];
-                    if !std::mem::replace(is_seen, true) {
-                        open.push((row, place));
-                    }
-                }
-            }
-        }
-    }
-}
-
-fn norm([x, z]: [f64; 2]) -> f64 {
-    (x * x + z * z).sqrt()
-}
-
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    norm([a[0] - b[0], a[1] - b[1]])
 }
 
 /// Whether a cut crosses a bond; a particle on the cut is on one side of it.

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use super::{body::Body, lattice::Lattice, step::Load};
+use super::bonded::{At, Bonded, Load, dot, norm, way};
 
 /// Distance beyond contact at which a pair is watched, in spacings; half of it is how far particles go between two searches.
 const WATCHED: f64 = 0.2;
@@ -27,14 +27,19 @@ pub(super) struct ContactLaw {
 }
 
 impl ContactLaw {
-    /// Contact of particles of a lattice, of a solid of a Poisson's ratio.
-    pub(super) fn new(lattice: &Lattice, ratio: f64, restitution: f64, friction: f64) -> Self {
+    /// Contact of particles of a diameter [m] and a stiffness, of a solid of a Poisson's ratio.
+    pub(super) fn new(
+        (diameter, stiffness): (f64, f64),
+        ratio: f64,
+        restitution: f64,
+        friction: f64,
+    ) -> Self {
         Self {
-            stiffness: lattice.normal,
+            stiffness,
             across: 2.0 * (1.0 - ratio) / (2.0 - ratio),
             friction,
             damping: damping_of(restitution),
-            diameter: lattice.spacing,
+            diameter,
         }
     }
 }
@@ -55,9 +60,6 @@ fn damping_of(restitution: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Row and place of a particle.
-type At = (usize, usize);
-
 /// A pair that touches or may touch soon.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Pair {
@@ -74,18 +76,20 @@ struct Pair {
 
 /// All pairs of a body, and what they have lost.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Debris {
+#[serde(bound = "")]
+pub(super) struct Debris<const D: usize> {
     pairs: Vec<Pair>,
     /// Positions at the last search of the particles that have neighbours without a whole bond [m].
-    searched: Vec<(At, [f64; 2])>,
+    #[serde(with = "places")]
+    searched: Vec<(At, [f64; D])>,
     /// Energy lost to damping and friction [J per m].
     pub(super) lost: f64,
 }
 
 /// Two particles now.
-struct Meeting {
+struct Meeting<const D: usize> {
     /// From the first to the second.
-    normal: [f64; 2],
+    normal: [f64; D],
     distance: f64,
     /// Distance at which they touch [m].
     reach: f64,
@@ -93,15 +97,21 @@ struct Meeting {
     stiffness: f64,
 }
 
-impl Debris {
+impl<const D: usize> Debris<D> {
     /// Whether particles without a whole bond to their neighbours were found.
     pub(super) fn is_empty(&self) -> bool {
         self.searched.is_empty()
     }
 
     /// Contact of pieces after a step: once a bond is broken, its ends and the faces of the body are watched. A search is due now and then.
-    pub(super) fn meet(&mut self, body: &Body, law: &ContactLaw, time_step: f64, is_due: bool) {
-        if body.softening.is_none() {
+    pub(super) fn meet(
+        &mut self,
+        body: &impl Bonded<D>,
+        law: &ContactLaw,
+        time_step: f64,
+        is_due: bool,
+    ) {
+        if body.softening().is_none() {
             return;
         }
         // Bonds are counted only where a search is due.
@@ -112,17 +122,16 @@ impl Debris {
     }
 
     /// Whether a particle has gone so far since the last search that a pair may be missing.
-    pub(super) fn has_moved(&self, body: &Body) -> bool {
-        let far = 0.5 * WATCHED * body.lattice.spacing;
-        self.searched.iter().any(|&((row, place), [x, z])| {
-            let now = body.position(row, place);
-            let (x, z) = (now[0] - x, now[1] - z);
-            x * x + z * z > far * far
+    pub(super) fn has_moved(&self, body: &impl Bonded<D>) -> bool {
+        let far = 0.5 * WATCHED * body.spacing();
+        self.searched.iter().any(|&((row, place), then)| {
+            let gone = way(then, body.position(row, place));
+            dot(gone, gone) > far * far
         })
     }
 
     /// Finds all pairs. Those that were known keep what they carry.
-    pub(super) fn search(&mut self, body: &Body, law: &ContactLaw) {
+    pub(super) fn search(&mut self, body: &impl Bonded<D>, law: &ContactLaw) {
         self.searched = body
             .particles()
             .filter(|&(row, place)| !body.is_held_all_round(row, place))
@@ -148,35 +157,36 @@ impl Debris {
     }
 
     /// Pairs that a bond held.
-    fn broken_bonds(&self, body: &Body) -> Vec<Pair> {
+    fn broken_bonds<B: Bonded<D>>(&self, body: &B) -> Vec<Pair> {
         let mut found = Vec::new();
         for &((row, place), _) in &self.searched {
-            for kind in 0..3 {
+            for kind in 0..B::KINDS {
                 let bond = (row, place, kind);
-                if body.rows[row].weights[kind][place] > 0.0 && body.is_broken(bond) {
-                    let ends = [(row, place), body.other_end(row, place, kind)];
-                    found.push(Pair::new(ends, Some(kind)));
+                if body.weight(bond) > 0.0 && body.is_broken(bond) {
+                    found.push(Pair::new(body.ends(bond), Some(kind)));
                 }
             }
         }
         found
     }
 
-    /// Pairs that no bond held, by cells of a square grid.
-    fn add_near(&self, body: &Body, reach: f64, found: &mut Vec<Pair>) {
-        let cell = |[x, z]: [f64; 2]| ((x / reach).floor() as i64, (z / reach).floor() as i64);
-        let mut cells: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
+    /// Pairs that no bond held, by cells of a grid.
+    fn add_near(&self, body: &impl Bonded<D>, reach: f64, found: &mut Vec<Pair>) {
+        let cell = |place: [f64; D]| place.map(|part| (part / reach).floor() as i64);
+        let mut cells: BTreeMap<[i64; D], Vec<usize>> = BTreeMap::new();
         for (index, &(_, position)) in self.searched.iter().enumerate() {
             cells.entry(cell(position)).or_default().push(index);
         }
         for (index, &(end, position)) in self.searched.iter().enumerate() {
-            let bonded = body.bonded_to(end);
-            let (x, z) = cell(position);
-            for near in (-1..=1).flat_map(|i| (-1..=1).map(move |k| (x + i, z + k))) {
+            let bonded = bonded_to(body, end);
+            let own = cell(position);
+            for near in 0..3_usize.pow(D as u32) {
+                let off = |axis: usize| (near / 3_usize.pow(axis as u32) % 3) as i64 - 1;
+                let near: [i64; D] = std::array::from_fn(|axis| own[axis] + off(axis));
                 for &other in cells.get(&near).map_or(&[][..], Vec::as_slice) {
                     let (other_end, at) = self.searched[other];
-                    let (dx, dz) = (at[0] - position[0], at[1] - position[1]);
-                    let is_near = dx * dx + dz * dz < reach * reach;
+                    let between = way(position, at);
+                    let is_near = dot(between, between) < reach * reach;
                     if other > index && is_near && !bonded.contains(&other_end) {
                         found.push(Pair::new([end, other_end], None));
                     }
@@ -186,14 +196,14 @@ impl Debris {
     }
 
     /// Forces of all pairs at the positions and velocities after a step [s].
-    pub(super) fn update(&mut self, body: &Body, law: &ContactLaw, step: f64) {
+    pub(super) fn update(&mut self, body: &impl Bonded<D>, law: &ContactLaw, step: f64) {
         for pair in &mut self.pairs {
             self.lost += pair.update(body, law, step);
         }
     }
 
     /// Forces on particles, in the order of the pairs.
-    pub(super) fn loads(&self, body: &Body, law: &ContactLaw) -> Vec<Load> {
+    pub(super) fn loads(&self, body: &impl Bonded<D>, law: &ContactLaw) -> Vec<Load<D>> {
         let mut loads = Vec::new();
         for pair in self
             .pairs
@@ -201,7 +211,6 @@ impl Debris {
             .filter(|pair| pair.push > 0.0 || pair.drag != 0.0)
         {
             let meeting = pair.meeting(body, law);
-            let [x, z] = meeting.normal;
             // The spring of a broken bond pushes by itself.
             let along = if pair.bond.is_some() {
                 pair.drag
@@ -209,7 +218,9 @@ impl Debris {
                 pair.push
             };
             let across = -law.across * meeting.stiffness * pair.slide;
-            let force = [along * x - across * z, along * z + across * x];
+            let (normal, side) = (meeting.normal, sideways(meeting.normal));
+            let force: [f64; D] =
+                std::array::from_fn(|axis| along * normal[axis] + across * side[axis]);
             let moment = -0.5 * meeting.distance * across;
             for ((row, place), sign) in pair.ends.into_iter().zip([-1.0, 1.0]) {
                 loads.push(Load {
@@ -224,7 +235,7 @@ impl Debris {
     }
 
     /// Energy of the springs of all pairs [J per m], without that of bonds.
-    pub(super) fn energy(&self, body: &Body, law: &ContactLaw) -> f64 {
+    pub(super) fn energy(&self, body: &impl Bonded<D>, law: &ContactLaw) -> f64 {
         let of = |pair: &Pair| {
             let meeting = pair.meeting(body, law);
             let depth = (meeting.reach - meeting.distance).max(0.0);
@@ -250,20 +261,17 @@ impl Pair {
         }
     }
 
-    fn meeting(&self, body: &Body, law: &ContactLaw) -> Meeting {
+    fn meeting<const D: usize>(&self, body: &impl Bonded<D>, law: &ContactLaw) -> Meeting<D> {
         let [a, b] = self.ends.map(|(row, place)| body.position(row, place));
-        let (x, z) = (b[0] - a[0], b[1] - a[1]);
-        let distance = (x * x + z * z).sqrt().max(f64::MIN_POSITIVE);
+        let between = way(a, b);
+        let distance = norm(between).max(f64::MIN_POSITIVE);
+        let (row, place) = self.ends[0];
         let (reach, stiffness) = match self.bond {
             None => (law.diameter, law.stiffness),
-            Some(kind) => {
-                let (row, place) = self.ends[0];
-                let rest = body.rest(row, place, kind);
-                (rest.length, rest.weight * body.lattice.normal)
-            }
+            Some(kind) => body.spring_of((row, place, kind)),
         };
         Meeting {
-            normal: [x / distance, z / distance],
+            normal: between.map(|part| part / distance),
             distance,
             reach,
             stiffness,
@@ -271,7 +279,12 @@ impl Pair {
     }
 
     /// Computes the forces after a step [s], and returns the energy that damping and friction took in it [J per m].
-    fn update(&mut self, body: &Body, law: &ContactLaw, step: f64) -> f64 {
+    fn update<const D: usize>(
+        &mut self,
+        body: &impl Bonded<D>,
+        law: &ContactLaw,
+        step: f64,
+    ) -> f64 {
         let meeting = self.meeting(body, law);
         let depth = meeting.reach - meeting.distance;
         let (drag, slide) = (self.drag, self.slide);
@@ -298,42 +311,68 @@ impl Pair {
     }
 
     /// Speeds at which the centres part, and at which the second particle slides past the first [m/s].
-    fn speeds(&self, body: &Body, meeting: &Meeting) -> [f64; 2] {
-        let [a, b] = self.ends.map(|(row, place)| {
-            let motion = &body.motion[row];
-            [motion.x[place], motion.z[place], motion.spin[place]]
-        });
-        let ([x, z], [dx, dz]) = (meeting.normal, [b[0] - a[0], b[1] - a[1]]);
-        let rolling = 0.5 * meeting.distance * (a[2] + b[2]);
-        [dx * x + dz * z, dz * x - dx * z - rolling]
+    fn speeds<const D: usize>(&self, body: &impl Bonded<D>, meeting: &Meeting<D>) -> [f64; 2] {
+        let [a, b] = self.ends.map(|(row, place)| body.velocity(row, place));
+        let [first, second] = self.ends.map(|(row, place)| body.spin(row, place));
+        let past = way(a, b);
+        let rolling = 0.5 * meeting.distance * (first + second);
+        let sliding = dot(past, sideways(meeting.normal)) - rolling;
+        [dot(past, meeting.normal), sliding]
     }
 
-    /// Mass of the motion of both against each other [kg per m].
-    fn mass(&self, body: &Body) -> f64 {
+    /// Mass of the motion of both against each other.
+    fn mass<const D: usize>(&self, body: &impl Bonded<D>) -> f64 {
         let [a, b] = self
             .ends
-            .map(|(row, place)| body.rows[row].inverse_mass[place]);
+            .map(|(row, place)| body.inverse_mass_of(row, place));
         if a + b > 0.0 { 1.0 / (a + b) } else { 0.0 }
     }
 }
 
-impl Body {
-    /// Whether six whole bonds hold a particle.
-    fn is_held_all_round(&self, row: usize, place: usize) -> bool {
-        let mut bonds = self.bonds_of(row, place).into_iter();
-        bonds.all(|bond| bond.is_some_and(|bond| self.weight(bond) > 0.0 && !self.is_broken(bond)))
+/// Direction in which particles of a plane slide past each other. In space they have no rotation, and so no friction.
+fn sideways<const D: usize>(normal: [f64; D]) -> [f64; D] {
+    let mut side = [0.0; D];
+    if D == 2 {
+        (side[0], side[D - 1]) = (-normal[D - 1], normal[0]);
+    }
+    side
+}
+
+/// Particles that a particle has, or had, a bond with.
+fn bonded_to<const D: usize>(body: &impl Bonded<D>, end: At) -> BTreeSet<At> {
+    let mut others = BTreeSet::new();
+    for bond in body.bonds_of(end.0, end.1) {
+        if body.weight(bond) > 0.0 {
+            others.extend(body.ends(bond).into_iter().filter(|other| *other != end));
+        }
+    }
+    others
+}
+
+/// Places of particles in a checkpoint: arrays of any length are no part of the format.
+mod places {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use super::At;
+
+    pub(super) fn serialize<S: Serializer, const D: usize>(
+        places: &[(At, [f64; D])],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let flat: Vec<(At, Vec<f64>)> = places.iter().map(|(at, p)| (*at, p.to_vec())).collect();
+        flat.serialize(serializer)
     }
 
-    /// Particles that a particle has, or had, a bond with.
-    fn bonded_to(&self, end: At) -> BTreeSet<At> {
-        let mut others = BTreeSet::new();
-        for bond in self.bonds_of(end.0, end.1).into_iter().flatten() {
-            let (row, place, kind) = bond;
-            if self.weight(bond) > 0.0 {
-                let ends = [(row, place), self.other_end(row, place, kind)];
-                others.extend(ends.into_iter().filter(|other| *other != end));
-            }
-        }
-        others
+    pub(super) fn deserialize<'de, S: Deserializer<'de>, const D: usize>(
+        deserializer: S,
+    ) -> Result<Vec<(At, [f64; D])>, S::Error> {
+        let flat = Vec::<(At, Vec<f64>)>::deserialize(deserializer)?;
+        let of = |(at, place): (At, Vec<f64>)| {
+            let place = place.try_into();
+            place
+                .map(|place| (at, place))
+                .map_err(|_| serde::de::Error::custom("a place of another number of dimensions"))
+        };
+        flat.into_iter().map(of).collect()
     }
 }

@@ -4,8 +4,9 @@ use rayon::prelude::*;
 
 use super::{
     body::Body,
+    bonded::Load,
     row::Damage,
-    step::{LEAST_ROWS, Load, Sweep},
+    step::{LEAST_ROWS, Sweep},
 };
 
 /// Energies [J per m].
@@ -18,7 +19,7 @@ pub(super) struct BodySums {
 
 impl Body {
     /// Energies now, the velocities taken half a step on under the same loads.
-    pub(super) fn sums(&self, step: f64, loads: &[Load]) -> BodySums {
+    pub(super) fn energies(&self, step: f64, loads: &[Load<2>]) -> BodySums {
         let rows: Vec<BodySums> = (0..self.rows.len())
             .into_par_iter()
             .with_min_len(LEAST_ROWS)
@@ -35,7 +36,7 @@ impl Body {
 
     /// Kinetic energy as `½ m v₋·v₊` of the velocities half a step before and after, with which leapfrog conserves the energy of
     /// linear springs exactly.
-    fn row_sums(&self, row: usize, step: f64, loads: &[Load]) -> BodySums {
+    fn row_sums(&self, row: usize, step: f64, loads: &[Load<2>]) -> BodySums {
         let springs = self.springs();
         let mut sweep = Sweep::new(self, &springs, row);
         sweep.next(self, &springs, row, loads);
@@ -96,13 +97,5 @@ impl Body {
             }
         }
         lost
-    }
-
-    /// Momentum along the normal of the struck face half a step ago [N s per m].
-    pub(super) fn momentum(&self) -> f64 {
-        let rows = self.rows.iter().zip(&self.motion);
-        rows.flat_map(|(make, motion)| make.mass.iter().zip(&motion.z))
-            .map(|(mass, velocity)| mass * velocity)
-            .sum()
     }
 }

@@ -1,6 +1,6 @@
 //! Stresses of particles, and fields for pictures and files.
 
-use super::{body::Body, lattice::ROW, run::PlaneImpact, shape::Shape};
+use super::{body::Body, bonded::Bonded, lattice::ROW, run::Impact, setup, shape::Rigid};
 use crate::{
     history::ElementState,
     solver::{Particle, frames::Bond},
@@ -12,7 +12,7 @@ const COLUMNS: u32 = 10;
 /// Stress in the plane `[xx, zz, xz]` of a particle [Pa], tension positive: the mean over its volume by the virial of its bonds.
 pub(super) fn stress(body: &Body, row: usize, place: usize) -> [f64; 3] {
     let mut sum = [0.0; 3];
-    for bond in body.bonds_of(row, place).into_iter().flatten() {
+    for bond in body.bonds_of(row, place) {
         add_bond(body, bond, &mut sum);
     }
     let inside = body.lattice.spacing * body.lattice.spacing * ROW;
@@ -41,33 +41,72 @@ pub(super) fn largest_tension([xx, zz, xz]: [f64; 3]) -> f64 {
 }
 
 /// All particles of a body.
-pub(super) fn whole(body: &Body) -> Vec<Particle> {
+pub(super) fn whole<const D: usize>(body: &impl Bonded<D>) -> Vec<Particle> {
     body.particles()
-        .map(|(row, place)| particle(body, row, place))
+        .map(|(row, place)| body.particle(row, place))
         .collect()
 }
 
 /// All bonds of a body, whose particles are counted from a number on.
-pub(super) fn bonds(body: &Body, first: usize) -> Vec<Bond> {
-    let mut numbers = vec![0; body.rows.len() * body.stride];
-    for (number, (row, place)) in body.particles().enumerate() {
-        numbers[row * body.stride + place] = (first + number) as u32;
+pub(super) fn bonds<const D: usize>(body: &impl Bonded<D>, first: usize) -> Vec<Bond> {
+    let mut numbers = vec![0; body.row_count() * body.row_places()];
+    for (number, at) in body.particles().enumerate() {
+        numbers[body.index(at)] = (first + number) as u32;
     }
     let of = |bond: (usize, usize, usize)| {
-        let damage = body.softening.map_or(0.0, |law| {
+        let damage = body.softening().map_or(0.0, |law| {
             let damage = body.damage_of(bond);
             1.0 - law.integrity(damage.worst, damage.start)
         });
-        let ends = body.ends(bond);
         Bond {
-            ends: ends.map(|(row, place)| numbers[row * body.stride + place]),
+            ends: body.ends(bond).map(|end| numbers[body.index(end)]),
             damage: damage as f32,
         }
     };
     body.bonds().map(of).collect()
 }
 
-fn particle(body: &Body, row: usize, place: usize) -> Particle {
+/// State of the particle nearest to the axis in every row.
+pub(super) fn along_axis<const D: usize>(body: &impl Bonded<D>, part: usize) -> Vec<ElementState> {
+    (0..body.row_count())
+        .map(|row| body.on_axis(row, part))
+        .collect()
+}
+
+/// State of the particle nearest to the axis in a row.
+pub(super) fn on_axis(body: &Body, row: usize, part: usize) -> ElementState {
+    let place = body.axis_place(row);
+    let zz = stress(body, row, place)[1];
+    ElementState {
+        part,
+        initial_position: body.reference(row, place)[1],
+        position: body.position(row, place)[1],
+        length: ROW * body.lattice.spacing,
+        stress: -zz,
+        strain: -axial_strain(body, row),
+        plastic_strain: 0.0,
+        diameter: body.width(),
+        temperature: f64::NAN,
+        velocity: body.motion[row].z[place],
+    }
+}
+
+/// Strain along the normal of the struck face, between the row before and the row behind.
+pub(super) fn axial_strain<const D: usize>(body: &impl Bonded<D>, row: usize) -> f64 {
+    let last = (row + 1).min(body.row_count() - 1);
+    let [(z, now), (next_z, next)] = [row.saturating_sub(1), last].map(|row| {
+        let place = body.axis_place(row);
+        let at = |position: [f64; D]| position[D - 1];
+        (
+            at(body.reference(row, place)),
+            at(body.position(row, place)),
+        )
+    });
+    (next - now) / (next_z - z) - 1.0
+}
+
+/// A particle with its stresses.
+pub(super) fn particle(body: &Body, row: usize, place: usize) -> Particle {
     let [xx, zz, xz] = stress(body, row, place);
     let across = body.lattice.out_of_plane * (xx + zz);
     let pressure = -(xx + zz + across) / 3.0;
@@ -87,9 +126,13 @@ fn particle(body: &Body, row: usize, place: usize) -> Particle {
     }
 }
 
-/// Points that fill a rigid projectile as far as a distance behind its tip [m], which show where it is.
-pub(super) fn rigid(run: &PlaneImpact<'_>, shape: &Shape, room: f64) -> Vec<Particle> {
-    let length = shape.length.min(room);
+/// Points that fill a rigid projectile, which show where it is; of a long one only what a picture of the lattice has room for.
+pub(super) fn rigid<B: Bonded<D>, const D: usize>(run: &Impact<'_, B, D>) -> Vec<Particle> {
+    let Rigid::Projectile(shape) = run.rigid else {
+        return Vec::new();
+    };
+    let extent = setup::extent(run.scenario);
+    let length = shape.length.min(extent.length.max(extent.width));
     let size = shape.radius / f64::from(COLUMNS);
     let mut points = Vec::new();
     let rows = (length / size).ceil() as u32;
@@ -115,53 +158,6 @@ pub(super) fn rigid(run: &PlaneImpact<'_>, shape: &Shape, room: f64) -> Vec<Part
         ..Particle::default()
     };
     points.into_iter().map(of).collect()
-}
-
-/// State of the particle nearest to the axis in every row.
-pub(super) fn along_axis(body: &Body, part: usize) -> Vec<ElementState> {
-    let rows = 0..body.rows.len();
-    rows.map(|row| {
-        let place = axis_place(body, row);
-        let [_, z] = body.reference(row, place);
-        let height = ROW * body.lattice.spacing;
-        let [_, now] = body.position(row, place);
-        let zz = stress(body, row, place)[1];
-        ElementState {
-            part,
-            initial_position: z,
-            position: now,
-            length: height,
-            stress: -zz,
-            strain: -strain(body, row, place),
-            plastic_strain: 0.0,
-            diameter: body.width(),
-            temperature: f64::NAN,
-            velocity: body.motion[row].z[place],
-        }
-    })
-    .collect()
-}
-
-/// Strain along the normal of the struck face, between the row before and the row behind.
-fn strain(body: &Body, row: usize, place: usize) -> f64 {
-    let first = row.saturating_sub(1);
-    let last = (row + 1).min(body.rows.len() - 1);
-    let of = |row: usize| {
-        let place = if row == first || row == last {
-            axis_place(body, row)
-        } else {
-            place
-        };
-        (body.reference(row, place)[1], body.state[row].z[place])
-    };
-    let ((z, u), (next_z, next_u)) = (of(first), of(last));
-    (next_u - u) / (next_z - z)
-}
-
-/// Place of the particle of a row that is nearest to the axis.
-pub(super) fn axis_place(body: &Body, row: usize) -> usize {
-    let column = -body.origin[0] / body.lattice.spacing - 0.5 * (row % 2) as f64;
-    1 + column.round().max(0.0) as usize
 }
 
 impl Body {

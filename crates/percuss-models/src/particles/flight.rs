@@ -15,7 +15,7 @@ pub(super) struct Pose {
     pub(super) turn: [f64; 2],
 }
 
-/// Inertia of a projectile, per metre of width.
+/// Inertia of a projectile; of a strip per metre of width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Inertia {
     pub(super) mass: f64,
@@ -74,17 +74,21 @@ impl Pose {
 }
 
 impl Inertia {
-    /// That of a shape of a density [kg/m3], free to turn or held on its axis.
-    pub(super) fn of(shape: &Shape, density: f64, turns: bool) -> Self {
-        let mass = density * shape.area();
+    /// That of a mass, free to turn or held on its axis; distance of the centre behind the tip [m] and second moment about it, which the density makes
+    /// a moment of inertia.
+    pub(super) fn of(
+        mass: f64,
+        (behind_tip, second): (f64, f64),
+        density: f64,
+        turns: bool,
+    ) -> Self {
         if !turns {
             return Self::on_axis(mass);
         }
-        let (behind_tip, second_moment) = shape.moments();
         Self {
             mass,
             behind_tip,
-            moment: Some(density * second_moment),
+            moment: Some(density * second),
         }
     }
 
@@ -133,7 +137,12 @@ impl Flight {
     }
 
     /// Advances it by a step [s] under the forces that it meets.
-    pub(super) fn advance(&mut self, step: f64, inertia: &Inertia, contact: &Contact) {
+    pub(super) fn advance<const D: usize>(
+        &mut self,
+        step: f64,
+        inertia: &Inertia,
+        contact: &Contact<D>,
+    ) {
         let first = usize::from(inertia.moment.is_none());
         let moment = self.moment(inertia, contact);
         for axis in first..2 {
@@ -152,14 +161,19 @@ impl Flight {
     }
 
     /// Moment of the forces of a contact on the projectile about the point that is followed [N m per m].
-    fn moment(&self, inertia: &Inertia, contact: &Contact) -> f64 {
+    fn moment<const D: usize>(&self, inertia: &Inertia, contact: &Contact<D>) -> f64 {
         let tip = self.pose(inertia).tip;
         let [x, z] = [tip[0] - self.point[0], tip[1] - self.point[1]];
         -(contact.moment + x * contact.force[1] - z * contact.force[0])
     }
 
     /// Kinetic energy of the velocities half a step before and after [J per m].
-    pub(super) fn kinetic_energy(&self, step: f64, inertia: &Inertia, contact: &Contact) -> f64 {
+    pub(super) fn kinetic_energy<const D: usize>(
+        &self,
+        step: f64,
+        inertia: &Inertia,
+        contact: &Contact<D>,
+    ) -> f64 {
         let along = |axis: usize| {
             let before = self.velocity[axis];
             0.5 * before * (inertia.mass * before - step * contact.force[axis])

@@ -2,17 +2,15 @@
 
 use std::{collections::BTreeMap, fmt::Write as _};
 
-use super::{
-    body::Body,
-    run::PlaneImpact,
-    setup,
-    shape::{Rigid, stiffness},
-};
+use super::{body::Body, bonded::Bonded, run::Impact, setup, shape::Rigid};
 use crate::{
     Error, Refusal, Scenario,
     problem::Nose,
     solver::{Control, applicability, interface::Solver},
 };
+
+/// The run that the input is of.
+type PlaneRun<'a> = Impact<'a, Body, 2>;
 
 /// Types of the atoms in the data.
 const FREE: u8 = 1;
@@ -80,9 +78,9 @@ pub fn lammps(scenario: &Scenario, control: &mut Control<'_>) -> Result<LammpsIn
     if let Some(refusal) = not_exported(scenario) {
         return Err(refused(refusal));
     }
-    let (_, courant) = PlaneImpact::courant(scenario);
+    let (_, courant) = PlaneRun::courant(scenario);
     let courant = scenario.options.particles.courant.unwrap_or(courant);
-    let impact = PlaneImpact::build(scenario, courant, control)?;
+    let impact = PlaneRun::build(scenario, courant, control)?;
     let (_, end, limits) = setup::expected(scenario);
     let time = end.min(limits.end_time);
     let steps = (time / impact.time_step).ceil() as u64;
@@ -99,7 +97,7 @@ pub fn lammps(scenario: &Scenario, control: &mut Control<'_>) -> Result<LammpsIn
 }
 
 /// What LAMMPS computes otherwise.
-fn differences(impact: &PlaneImpact<'_>) -> Vec<String> {
+fn differences(impact: &PlaneRun<'_>) -> Vec<String> {
     let mut all = Vec::new();
     if impact.body.lattice.shear > 0.0 {
         all.push(
@@ -118,7 +116,7 @@ fn differences(impact: &PlaneImpact<'_>) -> Vec<String> {
 
 /// Particles and bonds with their numbers in the data.
 struct Deck<'a> {
-    impact: &'a PlaneImpact<'a>,
+    impact: &'a PlaneRun<'a>,
     atoms: Vec<(usize, usize)>,
     bonds: Vec<DataBond>,
     /// Shares of the springs of each type of bonds.
@@ -126,7 +124,7 @@ struct Deck<'a> {
 }
 
 impl<'a> Deck<'a> {
-    fn of(impact: &'a PlaneImpact<'a>) -> Self {
+    fn of(impact: &'a PlaneRun<'a>) -> Self {
         let body = &impact.body;
         let atoms: Vec<_> = body.particles().collect();
         let number: BTreeMap<(usize, usize), usize> = atoms
@@ -297,7 +295,7 @@ impl<'a> Deck<'a> {
             format_args!("pair_coeff * * 0 {} 0", lattice.spacing),
         );
         if let Rigid::Projectile(shape) = self.impact.rigid {
-            let of_contact = stiffness(body);
+            let of_contact = body.contact_stiffness();
             line(
                 &mut text,
                 format_args!("pair_coeff 1*2 3 {of_contact} {} 0", shape.radius),
@@ -340,7 +338,7 @@ impl<'a> Deck<'a> {
                     &mut text,
                     format_args!(
                         "fix wall lattice wall/harmonic yhi {away} {} 0 {away}",
-                        0.5 * stiffness(self.body())
+                        0.5 * self.body().contact_stiffness()
                     ),
                 );
             }

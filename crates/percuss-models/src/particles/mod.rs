@@ -1,6 +1,7 @@
 //! Model `particles`: two-dimensional solids as lattices of bonded particles.
 
 mod body;
+mod bonded;
 mod bonds;
 mod cracks;
 mod debris;
@@ -13,6 +14,7 @@ mod lattice;
 mod packing;
 mod periodic;
 mod pieces;
+mod plane;
 mod results;
 mod row;
 mod run;
@@ -29,6 +31,7 @@ pub use lammps::{LammpsInput, lammps};
 
 pub use crate::options::{FailureCriterion, PackingKind, ParticlesOptions, Space};
 
+use self::{body::Body, run::ParticlesRun};
 use crate::{
     Error, Refusal, Scenario,
     outcome::{BandQuantity, RunResult},
@@ -135,6 +138,6 @@ impl Model for Particles {
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        run::ParticlesRun::new(scenario, control)?.run(control)
+        ParticlesRun::<Body, 2>::new(scenario, control)?.run(control)
     }
 }

@@ -1,15 +1,14 @@
 //! Samples, outcome and results of a run.
 
 use super::{
-    fields,
+    bonded::Bonded,
     fracture::{LEAST_BY_STRESS, LEAST_SOFTENING},
-    run::PlaneImpact,
+    run::Impact,
     setup,
     shape::Rigid,
 };
 use crate::{
     history::{ElementState, Sample},
-    options::Space,
     outcome::{Detail, Outcome, RunResult, Termination},
     solver::{interface::Solver, monitor::RunMonitor},
     units::significant,
@@ -19,19 +18,22 @@ use crate::{
 const REST_FRACTION: f64 = 0.01;
 
 /// Mean velocity of the projectile along the normal of the face [m/s].
-fn mean_velocity(run: &PlaneImpact<'_>) -> f64 {
+fn mean_velocity<B: Bonded<D>, const D: usize>(run: &Impact<'_, B, D>) -> f64 {
     run.projectile_momentum() / run.inertia.mass
 }
 
 /// Velocity of the projectile: along the normal, or its speed where it came at an angle, negative away from the target [m/s].
-fn residual_velocity(run: &PlaneImpact<'_>) -> f64 {
+fn residual_velocity<B: Bonded<D>, const D: usize>(run: &Impact<'_, B, D>) -> f64 {
     match run.rigid {
         Rigid::Wall => mean_velocity(run),
         Rigid::Projectile(_) => run.state.flight.signed_speed(),
     }
 }
 
-pub(super) fn outcome(run: &PlaneImpact<'_>, termination: Termination) -> Outcome {
+pub(super) fn outcome<B: Bonded<D>, const D: usize>(
+    run: &Impact<'_, B, D>,
+    termination: Termination,
+) -> Outcome {
     let velocity = residual_velocity(run);
     let least = REST_FRACTION * run.scenario.impact_velocity;
     match termination {
@@ -44,12 +46,18 @@ pub(super) fn outcome(run: &PlaneImpact<'_>, termination: Termination) -> Outcom
 }
 
 /// State at this time.
-pub(super) fn sample(run: &PlaneImpact<'_>, monitor: &RunMonitor) -> Sample {
+pub(super) fn sample<B: Bonded<D>, const D: usize>(
+    run: &Impact<'_, B, D>,
+    monitor: &RunMonitor,
+) -> Sample {
     let (body, state) = (&run.body, &run.state);
-    let last = body.rows.len() - 1;
+    let last = body.row_count() - 1;
     let at = |row: usize| {
-        let place = fields::axis_place(body, row);
-        (body.position(row, place)[1], body.motion[row].z[place])
+        let place = body.axis_place(row);
+        (
+            body.position(row, place)[D - 1],
+            body.velocity(row, place)[D - 1],
+        )
     };
     let ((front, front_velocity), (back, back_velocity)) = (at(0), at(last));
     let mut sample = Sample::default();
@@ -60,7 +68,7 @@ pub(super) fn sample(run: &PlaneImpact<'_>, monitor: &RunMonitor) -> Sample {
     sample.energy = run.energy();
     sample.momentum = run.momentum();
     sample.contact_force = run.contact_force();
-    sample.crack_length = run.front.length;
+    sample.crack_length = if D == 2 { run.front.size } else { f64::NAN };
     sample.crack_reach = run.front.reach;
     match run.rigid {
         Rigid::Wall => {
@@ -86,8 +94,8 @@ pub(super) fn sample(run: &PlaneImpact<'_>, monitor: &RunMonitor) -> Sample {
 }
 
 /// State at a gauge that was at a position before the impact [m]: between the two rows around it.
-pub(super) fn at_gauge(
-    run: &PlaneImpact<'_>,
+pub(super) fn at_gauge<B: Bonded<D>, const D: usize>(
+    run: &Impact<'_, B, D>,
     position: f64,
     rows: &[ElementState],
 ) -> ElementState {
@@ -119,7 +127,11 @@ pub(super) fn at_gauge(
 }
 
 /// Adds velocities, sizes and warnings.
-pub(super) fn complete(run: &PlaneImpact<'_>, result: &mut RunResult, monitor: &RunMonitor) {
+pub(super) fn complete<B: Bonded<D>, const D: usize>(
+    run: &Impact<'_, B, D>,
+    result: &mut RunResult,
+    monitor: &RunMonitor,
+) {
     result.residual_velocity = Some(residual_velocity(run));
     result.projectile_final_length = Some(match run.rigid {
         Rigid::Wall => sample(run, monitor).projectile_length,
@@ -131,7 +143,7 @@ pub(super) fn complete(run: &PlaneImpact<'_>, result: &mut RunResult, monitor: &
     if run.inertia.moment.is_some() {
         add_directions(run, result);
     }
-    if run.body.softening.is_some() {
+    if run.body.softening().is_some() {
         add_cracks(run, result);
     }
     result.details = details(run);
@@ -139,7 +151,7 @@ pub(super) fn complete(run: &PlaneImpact<'_>, result: &mut RunResult, monitor: &
 }
 
 /// Adds cracks and pieces.
-fn add_cracks(run: &PlaneImpact<'_>, result: &mut RunResult) {
+fn add_cracks<B: Bonded<D>, const D: usize>(run: &Impact<'_, B, D>, result: &mut RunResult) {
     let mut front = run.front.clone();
     front.follow(&run.body, &run.notches, run.state.time);
     result.cracks = Some(front.results(&run.body, &run.notches));
@@ -149,7 +161,7 @@ fn add_cracks(run: &PlaneImpact<'_>, result: &mut RunResult) {
     };
     let pieces = run.body.pieces();
     if pieces.len() > 1 {
-        let spacing = run.body.lattice.spacing;
+        let spacing = run.body.spacing();
         result.fragments = pieces
             .iter()
             .map(|piece| piece.fragment(origin, spacing))
@@ -157,36 +169,27 @@ fn add_cracks(run: &PlaneImpact<'_>, result: &mut RunResult) {
     }
 }
 
-fn details(run: &PlaneImpact<'_>) -> Vec<Detail> {
-    let extent = setup::extent(run.scenario);
+fn details<B: Bonded<D>, const D: usize>(run: &Impact<'_, B, D>) -> Vec<Detail> {
     let body = &run.body;
     let detail = |name, unit, value| Detail { name, unit, value };
     let mut details = vec![
-        detail("spacing of the particles", "mm", body.lattice.spacing * 1e3),
+        detail("spacing of the particles", "mm", body.spacing() * 1e3),
         detail("particles", "", body.particles().count() as f64),
-        detail(
-            "mass of the projectile, a metre wide",
-            "kg",
-            run.inertia.mass,
-        ),
-        detail("width of the lattice", "mm", body.width() * 1e3),
-        detail(
-            "area of the lattice over that of the body",
-            "",
-            body.area / (extent.length * extent.width),
-        ),
+    ];
+    details.extend(body.details(run.scenario, &run.inertia));
+    details.extend([
         detail("largest tension", "MPa", run.state.largest_tension * 1e-6),
         detail(
             "largest stretch of a bond",
             "%",
             100.0 * run.state.largest_stretch,
         ),
-    ];
+    ]);
     if run.inertia.moment.is_some() {
         let rate = -run.state.flight.spin;
         details.push(detail("angular velocity of the projectile", "rad/s", rate));
     }
-    if let Some(softening) = &body.softening {
+    if let Some(softening) = body.softening() {
         let pieces = body.pieces();
         let single = pieces.iter().filter(|piece| piece.particles == 1).count();
         details.extend([
@@ -198,23 +201,19 @@ fn details(run: &PlaneImpact<'_>) -> Vec<Detail> {
 }
 
 /// Adds where a projectile that came at an angle goes.
-fn add_directions(run: &PlaneImpact<'_>, result: &mut RunResult) {
+fn add_directions<B: Bonded<D>, const D: usize>(run: &Impact<'_, B, D>, result: &mut RunResult) {
     let flight = &run.state.flight;
     let [[u, w], [cosine, sine]] = [flight.velocity, flight.turn];
     result.flight_direction = Some(u.atan2(w));
     result.projectile_axis = Some((-sine).atan2(cosine));
 }
 
-fn warnings(run: &PlaneImpact<'_>, result: &RunResult) -> Vec<String> {
-    let across = match run.scenario.options.particles.space() {
-        Space::PlaneStrain => "across the plane",
-        Space::PlaneStress => "of thickness",
-    };
-    let mut warnings = vec![format!(
-        "two-dimensional model: the projectile is a strip, and its mass, forces and energies are per metre {across}; do not \
-         compare them with those of a body of revolution"
-    )];
-    match setup::softenings(run.scenario, &run.body.lattice) {
+fn warnings<B: Bonded<D>, const D: usize>(
+    run: &Impact<'_, B, D>,
+    result: &RunResult,
+) -> Vec<String> {
+    let mut warnings = run.body.notes(run.scenario);
+    match run.body.softenings(run.scenario) {
         Some(softenings) => warnings.extend(fracture_warnings(run, &softenings)),
         None => warnings.push(format!(
             "the solid cannot break in this run: the largest tension is {} MPa, and beyond the strength of the material its \
@@ -222,20 +221,11 @@ fn warnings(run: &PlaneImpact<'_>, result: &RunResult) -> Vec<String> {
             significant(run.state.largest_tension * 1e-6, 3)
         )),
     }
-    let idle = run.notches.idle(&run.body);
+    let idle = run.body.idle(&run.notches);
     if !idle.is_empty() {
         warnings.push(format!(
             "`particles.notches`: number {} cuts no bond of the body: it lies outside of it or between two particles",
             numbered(&idle)
-        ));
-    }
-    let narrow = setup::narrow_slots(run.scenario, run.body.lattice.spacing);
-    if !narrow.is_empty() {
-        warnings.push(format!(
-            "`particles.notches`: the slot of number {} is narrower than the particles are apart, {} mm, so that its faces can touch: \
-             raise its `width` or reduce `particles.spacing`",
-            numbered(&narrow),
-            significant(run.body.lattice.spacing * 1e3, 3)
         ));
     }
     if result.outcome == Outcome::OutOfTime {
@@ -248,8 +238,11 @@ fn warnings(run: &PlaneImpact<'_>, result: &RunResult) -> Vec<String> {
 }
 
 /// What a fracture answer depends on beside the material.
-fn fracture_warnings(run: &PlaneImpact<'_>, softenings: &setup::Softenings) -> Vec<String> {
-    let spacing = run.body.lattice.spacing * 1e3;
+fn fracture_warnings<B: Bonded<D>, const D: usize>(
+    run: &Impact<'_, B, D>,
+    softenings: &setup::Softenings,
+) -> Vec<String> {
+    let spacing = run.body.spacing() * 1e3;
     let mut warnings = Vec::new();
     if softenings.exact < LEAST_SOFTENING {
         let fitting = spacing * softenings.exact / LEAST_SOFTENING;
@@ -260,7 +253,7 @@ fn fracture_warnings(run: &PlaneImpact<'_>, softenings: &setup::Softenings) -> V
             significant(spacing, 3)
         ));
     }
-    let by_stress = run.body.softening.filter(|law| law.by_stress);
+    let by_stress = run.body.softening().filter(|law| law.by_stress);
     if by_stress.is_some_and(|law| law.end < LEAST_BY_STRESS) {
         warnings.push(format!(
             "`particles.failure_criterion`: with a softening below {} the energy that a crack takes by the principal stress grows with the size of \
@@ -277,7 +270,7 @@ fn fracture_warnings(run: &PlaneImpact<'_>, softenings: &setup::Softenings) -> V
     warnings
 }
 
-fn numbered(numbers: &[usize]) -> String {
+pub(super) fn numbered(numbers: &[usize]) -> String {
     let numbers: Vec<String> = numbers.iter().map(usize::to_string).collect();
     numbers.join(", ")
 }

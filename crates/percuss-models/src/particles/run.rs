@@ -3,15 +3,13 @@
 use std::borrow::Cow;
 
 use super::{
-    body::Body,
+    bonded::{Bonded, Load},
     cracks::{Front, Notches},
     debris::{ContactLaw, Debris},
     fields,
     flight::{Flight, Inertia, Pose},
     results, setup,
-    shape::{Contact, Rigid, contact, stiffness},
-    step::Load,
-    survey::extremes,
+    shape::{Contact, Rigid, contact},
 };
 use crate::{
     Error, Scenario,
@@ -43,20 +41,20 @@ const PARTED_AFTER: f64 = 2.0;
 
 /// A lattice and the rigid body that it meets.
 #[derive(Debug)]
-pub(crate) struct PlaneImpact<'a> {
+pub(crate) struct Impact<'a, B, const D: usize> {
     pub(super) scenario: &'a Scenario,
-    pub(super) body: Body,
+    pub(super) body: B,
     pub(super) rigid: Rigid,
     pub(super) inertia: Inertia,
     pub(super) state: State,
     pub(super) time_step: f64,
-    contact: Contact,
-    debris: Debris,
+    contact: Contact<D>,
+    debris: Debris<D>,
     law: ContactLaw,
     pub(super) front: Front,
-    pub(super) notches: Notches,
+    pub(super) notches: Notches<D>,
     /// Forces of both, in the order of the rows.
-    loads: Vec<Load>,
+    loads: Vec<Load<D>>,
     initial: (f64, f64),
 }
 
@@ -78,9 +76,9 @@ pub(super) struct State {
 }
 
 /// A run of the model.
-pub(super) type ParticlesRun<'a> = Drive<'a, PlaneImpact<'a>>;
+pub(super) type ParticlesRun<'a, B, const D: usize> = Drive<'a, Impact<'a, B, D>>;
 
-impl PlaneImpact<'_> {
+impl<B: Bonded<D>, const D: usize> Impact<'_, B, D> {
     /// Part of the lattice in results: the projectile is 0.
     pub(super) fn part(&self) -> usize {
         usize::from(self.rigid != Rigid::Wall)
@@ -113,14 +111,14 @@ impl PlaneImpact<'_> {
 
     /// Largest stretch of a bond and largest tension of a particle, now or before.
     fn survey(&mut self) {
-        let (stretch, tension) = extremes(&self.body);
+        let (stretch, tension) = self.body.extremes();
         self.state.largest_stretch = self.state.largest_stretch.max(stretch);
         self.state.largest_tension = self.state.largest_tension.max(tension);
     }
 }
 
-impl<'a> Solver<'a> for PlaneImpact<'a> {
-    const NAMES: (&'static str, &'static str) = ("particles", "hexagonal");
+impl<'a, B: Bonded<D>, const D: usize> Solver<'a> for Impact<'a, B, D> {
+    const NAMES: (&'static str, &'static str) = ("particles", B::LATTICE);
     const AUDIT: Audit = Audit {
         interval: INTERVAL,
         report_interval: INTERVAL,
@@ -136,18 +134,16 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         courant: f64,
         control: &mut Control<'_>,
     ) -> Result<Self, Error> {
-        let (body, rigid) = setup::build(scenario, control)?;
+        let (body, rigid) = B::build(scenario, control)?;
         let speed = scenario.impact_velocity;
         let angle = scenario.obliquity;
-        let (inertia, flight) = setup::projectile(scenario, &body, rigid);
+        let inertia = body.inertia(scenario, rigid);
+        let flight = setup::flight(scenario, &inertia);
         let mass = inertia.mass;
         // A particle of the surface has half the mass of one inside, and a spring of the contact beside its bonds.
-        let frequency = match body.rows[0].is_moved() {
-            true => body.measured_frequency(control)?,
-            false => body.lattice.largest_frequency(),
-        };
+        let frequency = body.frequency(control)?;
         let of_contact =
-            (frequency * frequency + 2.0 * stiffness(&body) / body.lattice.mass).sqrt();
+            (frequency * frequency + 2.0 * body.contact_stiffness() / body.inner_mass()).sqrt();
         let mut impact = Self {
             scenario,
             time_step: courant * 2.0 / of_contact,
@@ -164,9 +160,9 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
             },
             contact: Contact::default(),
             debris: Debris::default(),
-            law: setup::contact_law(scenario, &body),
+            law: body.contact_law(scenario),
             front: Front::default(),
-            notches: setup::notches(scenario, &body),
+            notches: body.notches(scenario),
             loads: Vec::new(),
             initial: (0.5 * mass * speed * speed, mass * speed * angle.cos()),
             body,
@@ -177,7 +173,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
     }
 
     fn size(&self) -> usize {
-        self.body.rows.len() * self.body.stride
+        self.body.row_count() * self.body.row_places()
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
@@ -186,8 +182,8 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
     }
 
     fn limits(&self) -> Limits {
-        let breaks = self.body.softening.is_some();
-        setup::limits(self.scenario, &self.body.lattice, breaks)
+        let breaks = self.body.softening().is_some();
+        setup::limits(self.scenario, self.body.wave_speed(), breaks)
     }
 
     fn advance(&mut self) -> Result<(), NumericalError> {
@@ -211,7 +207,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         if self.state.step.is_multiple_of(INTERVAL) {
             self.survey();
         }
-        if self.body.softening.is_some() && self.state.step.is_multiple_of(LOOK) {
+        if self.body.softening().is_some() && self.state.step.is_multiple_of(LOOK) {
             self.front
                 .follow(&self.body, &self.notches, self.state.time);
         }
@@ -227,12 +223,14 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
     }
 
     fn probe(&mut self, _: &RunMonitor) -> Probe {
-        let place = fields::axis_place(&self.body, 0);
+        let place = self.body.axis_place(0);
+        let [start, now] =
+            [self.body.reference(0, place), self.body.position(0, place)].map(|at| at[D - 1]);
         let touches = !self.contact.loads.is_empty();
         Probe {
             depth: match self.rigid {
                 Rigid::Wall => 0.0,
-                Rigid::Projectile(_) => self.body.state[0].z[place],
+                Rigid::Projectile(_) => now - start,
             },
             contact_force: self.contact_force(),
             contact_time: if touches { self.time_step } else { 0.0 },
@@ -291,7 +289,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
         if self.state.largest_stretch <= LARGEST_STRETCH {
             return Ok(());
         }
-        let why = match self.body.softening {
+        let why = match self.body.softening() {
             Some(_) => "no spring stands for so large a strain of what is still whole",
             None => "the solid would break, and the bonds of this run do not",
         };
@@ -309,8 +307,8 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
             time, last_contact, ..
         } = self.state;
         let extent = setup::extent(self.scenario);
-        let free = PARTED_AFTER * 2.0 * extent.length.max(0.5 * extent.width)
-            / self.body.lattice.wave_speed;
+        let free =
+            PARTED_AFTER * 2.0 * extent.length.max(0.5 * extent.width) / self.body.wave_speed();
         let parted = last_contact >= 0.0 && time > last_contact + free;
         if !parted || !self.state.step.is_multiple_of(INTERVAL) {
             return Ok(None);
@@ -345,16 +343,13 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
 
     fn fields(&self) -> Fields<'_> {
         let mut bodies: Vec<Cow<'_, [Particle]>> = Vec::new();
-        if let Rigid::Projectile(shape) = self.rigid {
-            // Of a long projectile only what a picture of the lattice has room for.
-            let extent = setup::extent(self.scenario);
-            let room = extent.length.max(extent.width);
-            bodies.push(Cow::Owned(fields::rigid(self, &shape, room)));
+        if self.rigid != Rigid::Wall {
+            bodies.push(Cow::Owned(self.body.show_rigid(self)));
         }
         let before = bodies.iter().map(|body| body.len()).sum();
         bodies.push(Cow::Owned(fields::whole(&self.body)));
         Fields::Particles {
-            cell: self.body.lattice.spacing,
+            cell: self.body.spacing(),
             bonds: fields::bonds(&self.body, before),
             bodies,
         }
@@ -362,8 +357,7 @@ impl<'a> Solver<'a> for PlaneImpact<'a> {
 
     fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {
         archive.item(&mut self.state)?;
-        archive.item(&mut self.body.state)?;
-        archive.item(&mut self.body.motion)?;
+        self.body.archive(archive)?;
         archive.item(&mut self.debris)?;
         archive.item(&mut self.front)?;
         if archive.is_read() {

@@ -2,8 +2,6 @@
 
 use super::{
     body::{Body, Rows},
-    cracks::Notches,
-    debris::ContactLaw,
     flight::{Flight, Inertia},
     fracture::{self, BondKind, LEAST_SOFTENING, Softening, Toughness},
     lattice::{Lattice, ROW, Solid, poissons_ratio_refusal},
@@ -165,19 +163,19 @@ pub(super) fn expected(scenario: &Scenario) -> (f64, f64, Limits) {
     let lattice = solid(scenario).lattice(options.space(), extent(scenario).spacing());
     let time_step = options.courant() * 2.0 / lattice.largest_frequency();
     let end = match layer(scenario) {
-        Some(_) => time_of_cracks(scenario, &lattice),
+        Some(_) => time_of_cracks(scenario, lattice.wave_speed),
         None => WAYS_ON_WALL * extent(scenario).length / lattice.wave_speed,
     };
     let breaks = toughness(scenario).is_some();
-    (time_step, end, limits(scenario, &lattice, breaks))
+    (time_step, end, limits(scenario, lattice.wave_speed, breaks))
 }
 
 /// Limits of a run, whose bonds break or not.
-pub(super) fn limits(scenario: &Scenario, lattice: &Lattice, breaks: bool) -> Limits {
+pub(super) fn limits(scenario: &Scenario, wave_speed: f64, breaks: bool) -> Limits {
     let options = &scenario.options.particles;
     let mut limits = Limits::new(scenario, options.end_time, options.max_steps());
     if breaks && options.end_time.is_none() {
-        limits.end_time = limits.end_time.min(time_of_cracks(scenario, lattice));
+        limits.end_time = limits.end_time.min(time_of_cracks(scenario, wave_speed));
     }
     limits
 }
@@ -228,7 +226,7 @@ pub(super) struct Softenings {
     pub(super) exact: f64,
 }
 
-/// Softening of a case's bonds, if they break.
+/// Softening of a plane case's bonds, if they break.
 pub(super) fn softenings(scenario: &Scenario, lattice: &Lattice) -> Option<Softenings> {
     let toughness = toughness(scenario)?;
     let options = &scenario.options.particles;
@@ -239,18 +237,6 @@ pub(super) fn softenings(scenario: &Scenario, lattice: &Lattice) -> Option<Softe
         used: options.softening.unwrap_or(auto),
         exact,
     })
-}
-
-/// Contact of the pieces of a case's lattice.
-pub(super) fn contact_law(scenario: &Scenario, body: &Body) -> ContactLaw {
-    let options = &scenario.options.particles;
-    let ratio = solid(scenario).poissons_ratio;
-    ContactLaw::new(
-        &body.lattice,
-        ratio,
-        options.restitution(),
-        options.friction(),
-    )
 }
 
 /// Whether the case has a plate as its target, and a rigid projectile.
@@ -264,9 +250,9 @@ pub(super) fn is_disc(scenario: &Scenario) -> bool {
 }
 
 /// Time in which cracks have run through a body that breaks, and the projectile has gone its thickness at the speed of the impact [s].
-fn time_of_cracks(scenario: &Scenario, lattice: &Lattice) -> f64 {
+fn time_of_cracks(scenario: &Scenario, wave_speed: f64) -> f64 {
     let size = extent(scenario);
-    let waves = WAYS * size.length.max(size.width) / lattice.wave_speed;
+    let waves = WAYS * size.length.max(size.width) / wave_speed;
     let speed = scenario.impact_velocity * scenario.obliquity.cos();
     waves + size.length / speed.max(1.0)
 }
@@ -295,31 +281,18 @@ pub(super) fn narrow_slots(scenario: &Scenario, spacing: f64) -> Vec<usize> {
     narrow.map(|(index, _)| index + 1).collect()
 }
 
-/// The notches of a body that is built.
-pub(super) fn notches(scenario: &Scenario, body: &Body) -> Notches {
-    let notches = scenario.options.particles.notches.iter().flatten();
-    let notches: Vec<_> = notches
-        .map(|notch| (notch.ends(), notch.width.is_some()))
-        .collect();
-    Notches::of(body, &notches)
-}
-
-/// Inertia and motion of the projectile at the moment of impact.
-pub(super) fn projectile(scenario: &Scenario, body: &Body, rigid: Rigid) -> (Inertia, Flight) {
-    let (shape, angle) = (shape(scenario), scenario.obliquity);
-    let inertia = match rigid {
-        Rigid::Wall => Inertia::on_axis(body.mass()),
-        Rigid::Projectile(_) => {
-            let density = scenario.projectile.material.density.si();
-            Inertia::of(&shape, density, angle != 0.0)
-        }
-    };
-    let flight = Flight::at_impact(&shape, &inertia, scenario.impact_velocity, angle);
-    (inertia, flight)
+/// Motion of the projectile at the moment of impact.
+pub(super) fn flight(scenario: &Scenario, inertia: &Inertia) -> Flight {
+    Flight::at_impact(
+        &shape(scenario),
+        inertia,
+        scenario.impact_velocity,
+        scenario.obliquity,
+    )
 }
 
 /// Outline of the projectile.
-fn shape(scenario: &Scenario) -> Shape {
+pub(super) fn shape(scenario: &Scenario) -> Shape {
     Shape {
         nose: scenario.projectile.nose,
         radius: 0.5 * scenario.projectile.diameter,

@@ -1,6 +1,9 @@
-//! Plane shape of a rigid projectile, and the contact of particles with it.
+//! Shape of a rigid projectile, a strip or a body of revolution, and the contact of particles with it.
 
-use super::{body::Body, flight::Pose, lattice::ROW, step::Load};
+use super::{
+    bonded::{Bonded, Load},
+    flight::Pose,
+};
 use crate::problem::Nose;
 
 /// Part of the radius within which a particle is on the axis.
@@ -27,9 +30,9 @@ pub(super) struct Shape {
 
 /// Forces of a contact.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Contact {
+pub(super) struct Contact<const D: usize> {
     /// Forces on particles, in the order of the rows.
-    pub(super) loads: Vec<Load>,
+    pub(super) loads: Vec<Load<D>>,
     /// Force on the particles [N per m].
     pub(super) force: [f64; 2],
     /// Its moment about the tip of the projectile [N m per m].
@@ -77,6 +80,28 @@ impl Shape {
         let on_axis = x.abs() < ON_AXIS * radius && along > 0.0;
         let direction = [if on_axis { 0.0 } else { across }, along];
         (depth > 0.0).then_some((depth, direction))
+    }
+
+    /// The same of a position in a plane, or of one in space about a body of revolution, in a pose.
+    fn penetration_from<const D: usize>(
+        &self,
+        pose: Pose,
+        position: [f64; D],
+    ) -> Option<(f64, [f64; D])> {
+        let [x, z] = pose.point_at([position[0], position[D - 1]]);
+        let mut way_out = [0.0; D];
+        if D == 2 {
+            let (depth, direction) = self.penetration([x, z])?;
+            [way_out[0], way_out[D - 1]] = pose.turned(direction);
+            return Some((depth, way_out));
+        }
+        let across = position[1];
+        let radius = (x * x + across * across).sqrt();
+        let (depth, [out, along]) = self.penetration([radius, z])?;
+        let unit = out / radius.max(f64::MIN_POSITIVE);
+        [way_out[0], way_out[D - 1]] = pose.turned([unit * x, along]);
+        way_out[1] = unit * across;
+        Some((depth, way_out))
     }
 
     /// Area [m2].
@@ -191,62 +216,55 @@ fn to_arc(arc: f64, [x, z]: [f64; 2]) -> Depth {
     (arc - distance, direction)
 }
 
-/// Stiffness of the contact of a particle [N/m per m]: that of a row of bonds.
-pub(super) fn stiffness(body: &Body) -> f64 {
-    1.5 * body.lattice.normal + 0.5 * body.lattice.shear
-}
-
 /// Forces between a body and a rigid one in a pose.
-pub(super) fn contact(body: &Body, rigid: Rigid, pose: Pose) -> Contact {
-    let last = body.rows.len().saturating_sub(1);
+pub(super) fn contact<const D: usize>(
+    body: &impl Bonded<D>,
+    rigid: Rigid,
+    pose: Pose,
+) -> Contact<D> {
     match rigid {
-        Rigid::Wall => add_up(body, last..=last, pose, |[_, z]| {
-            (z > 0.0).then_some((z, [0.0, -1.0]))
+        Rigid::Wall => add_up(body, 0.0..f64::INFINITY, pose, |position| {
+            let depth = position[D - 1];
+            let mut direction = [0.0; D];
+            direction[D - 1] = -1.0;
+            (depth > 0.0).then_some((depth, direction))
         }),
         Rigid::Projectile(shape) => {
-            let height = ROW * body.lattice.spacing;
-            let reached = (pose.deepest(&shape) / height).max(0.0) as usize + 1;
-            // Pieces go anywhere.
-            let last = match body.softening {
-                Some(_) => last,
-                None => reached.min(last),
-            };
-            add_up(body, 0..=last, pose, |position| {
-                let (depth, direction) = shape.penetration(pose.point_at(position))?;
-                Some((depth, pose.turned(direction)))
+            let reached = f64::NEG_INFINITY..pose.deepest(&shape);
+            add_up(body, reached, pose, |position| {
+                shape.penetration_from(pose, position)
             })
         }
     }
 }
 
-fn add_up(
-    body: &Body,
-    rows: std::ops::RangeInclusive<usize>,
+/// Forces on the particles at depths of a range [m], which are inside a rigid body.
+fn add_up<const D: usize>(
+    body: &impl Bonded<D>,
+    depths: std::ops::Range<f64>,
     pose: Pose,
-    penetration: impl Fn([f64; 2]) -> Option<(f64, [f64; 2])>,
-) -> Contact {
-    let stiffness = stiffness(body);
+    penetration: impl Fn([f64; D]) -> Option<(f64, [f64; D])>,
+) -> Contact<D> {
+    let stiffness = body.contact_stiffness();
     let mut contact = Contact::default();
-    for row in rows {
-        for place in 1..body.stride - 1 {
-            if body.rows[row].mass[place] == 0.0 {
-                continue;
-            }
+    for row in 0..body.row_count() {
+        for place in body.between(row, &depths) {
             let position = body.position(row, place);
-            let Some((depth, [x, z])) = penetration(position) else {
+            let Some((depth, direction)) = penetration(position) else {
                 continue;
             };
-            let force = stiffness * depth;
-            let [across, along] = [force * x, force * z];
+            let pressure = stiffness * depth;
+            let force = direction.map(|part| pressure * part);
+            let (across, along) = (force[0], force[D - 1]);
             contact.force[0] += across;
             contact.force[1] += along;
             contact.moment +=
-                (position[0] - pose.tip[0]) * along - (position[1] - pose.tip[1]) * across;
-            contact.energy += 0.5 * force * depth;
+                (position[0] - pose.tip[0]) * along - (position[D - 1] - pose.tip[1]) * across;
+            contact.energy += 0.5 * pressure * depth;
             contact.loads.push(Load {
                 row,
                 place,
-                force: [across, along],
+                force,
                 moment: 0.0,
             });
         }

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::{
     body::Body,
+    bonded::{Bonded, Load},
     bonds::{BondDamage, BondForce, Forces, Pair, Pose, Rest, RowForces, Springs, bond, offset},
     lattice::DIRECTIONS,
     row::{RowMake, RowMotion, RowState},
@@ -20,15 +21,6 @@ const SMALL: usize = 4096;
 const FREQUENCY_ROUNDS: usize = 30;
 const FREQUENCY_MARGIN: f64 = 1.05;
 const FREQUENCY_STREAM: u64 = 0xf1e1d;
-
-/// Force [N per m] and moment [N m per m] of a contact on a particle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Load {
-    pub(super) row: usize,
-    pub(super) place: usize,
-    pub(super) force: [f64; 2],
-    pub(super) moment: f64,
-}
 
 impl Forces {
     /// Sum of what the bonds of a row and of the row above it do.
@@ -67,7 +59,7 @@ impl Forces {
 struct Slice<'a> {
     body: &'a Body,
     first: usize,
-    loads: &'a [Load],
+    loads: &'a [Load<2>],
     /// Time step [s].
     step: f64,
     state: &'a mut [RowState],
@@ -160,7 +152,7 @@ impl Sweep {
     }
 
     #[inline(always)]
-    pub(super) fn next(&mut self, body: &Body, springs: &Springs, row: usize, loads: &[Load]) {
+    pub(super) fn next(&mut self, body: &Body, springs: &Springs, row: usize, loads: &[Load<2>]) {
         self.tension.swap(0, 1);
         if !self.tension[1].is_empty() {
             body.tension(row + 1, &mut self.virial, &mut self.tension[1]);
@@ -220,7 +212,7 @@ impl Body {
 
     /// Advances all particles by a step [s] under the loads of contacts, which are in the order of the rows; returns the impulse on the
     /// support [N s per m]. Every particle sums its own forces in the same order, so threads change no bit.
-    pub(super) fn advance(&mut self, step: f64, loads: &[Load]) -> f64 {
+    pub(super) fn advance_rows(&mut self, step: f64, loads: &[Load<2>]) -> f64 {
         let mut motion = std::mem::take(&mut self.motion);
         let mut next = std::mem::take(&mut self.next);
         let at_once = self.rows_at_once();
@@ -282,7 +274,7 @@ impl Body {
             control.ask()?;
             let before = body.motion_norm();
             body.displace_by_motion(size / before);
-            body.advance(1.0, &[]);
+            body.advance_rows(1.0, &[]);
             square = body.motion_norm() / size;
         }
         Ok(FREQUENCY_MARGIN * square.sqrt())
@@ -315,7 +307,7 @@ impl Body {
 
     /// Force and energy of one bond.
     pub(super) fn bond_of(&self, row: usize, place: usize, kind: usize) -> BondForce {
-        let (other_row, other) = self.other_end(row, place, kind);
+        let (other_row, other) = self.end_of(row, place, kind);
         let pose = |row: usize, place: usize| {
             let state = &self.state[row];
             Pose {
@@ -351,7 +343,7 @@ impl Body {
     }
 
     /// Row and place of the second particle of a bond.
-    pub(super) fn other_end(&self, row: usize, place: usize, kind: usize) -> (usize, usize) {
+    pub(super) fn end_of(&self, row: usize, place: usize, kind: usize) -> (usize, usize) {
         let other = place.saturating_add_signed(offset(kind, row % 2));
         (row + usize::from(kind > 0), other)
     }

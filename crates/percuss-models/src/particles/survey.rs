@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{body::Body, fields};
+use super::{body::Body, bonded::Bonded, fields};
 
 /// Largest stretch of a bond, over the spacing, and largest tension of a particle [Pa].
 pub(super) fn extremes(body: &Body) -> (f64, f64) {

@@ -172,7 +172,7 @@ result_record! {
 
         /// Length of a straight crack that takes as many bonds as are broken.
         crack_length_mm: Option<f64>
-            = number("length of the cracks", Unit::MM, Result), |_, run| Some(run?.cracks?.length);
+            = number("length of the cracks", Unit::MM, Result), |_, run| run?.cracks?.length;
 
         /// Mean speed of the farthest crack tip from a tenth to nine tenths of its way.
         crack_speed_m_s: Option<f64>

@@ -1,6 +1,7 @@
 //! Contact with rigid bodies: shapes, strips on a wall, and whole runs.
 
 use super::{solid, strip};
+use crate::particles::bonded::Bonded;
 use crate::{
     case,
     options::Space,

@@ -1,12 +1,13 @@
 //! Contact of pieces: exact collisions of discs, books, and bodies that meet.
 
 use super::strip;
+use crate::particles::bonded::Bonded;
 use crate::{
     options::Space,
     particles::{
         body::Body,
+        bonded::Load,
         debris::{ContactLaw, Debris},
-        step::Load,
     },
 };
 
@@ -16,9 +17,9 @@ const SPACING: f64 = 1e-3;
 /// A body with the contacts of its particles.
 struct Scene {
     body: Body,
-    debris: Debris,
+    debris: Debris<2>,
     law: ContactLaw,
-    loads: Vec<Load>,
+    loads: Vec<Load<2>>,
     step: f64,
 }
 
@@ -28,7 +29,12 @@ impl Scene {
         let lattice = body.lattice;
         let step = part / (2.0 * lattice.normal / lattice.mass).sqrt();
         let mut scene = Self {
-            law: ContactLaw::new(&lattice, 0.0, restitution, friction),
+            law: ContactLaw::new(
+                (lattice.spacing, lattice.normal),
+                0.0,
+                restitution,
+                friction,
+            ),
             debris: Debris::default(),
             loads: Vec::new(),
             body,

@@ -1,5 +1,6 @@
 //! Projectiles that come at an angle: shape, motion and whole runs.
 
+use crate::particles::bonded::Bonded;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::{
@@ -11,8 +12,9 @@ use crate::{
     outcome::Outcome,
     particles::{
         Particles,
+        body::Body,
         flight::{Flight, Inertia, Pose},
-        run::PlaneImpact,
+        run::Impact,
         shape::{Rigid, Shape, contact},
     },
     problem::Nose,
@@ -168,7 +170,7 @@ fn a_round_nose_bounces_off_by_the_laws_of_impulse() {
     };
     let density = 7850.0;
     for degrees in [10.0_f64, 30.0, 60.0] {
-        let inertia = Inertia::of(&shape, density, true);
+        let inertia = Inertia::of(density * shape.area(), shape.moments(), density, true);
         let angle = degrees.to_radians();
         let mut flight = Flight::at_impact(&shape, &inertia, 10.0, angle);
         let start = flight;
@@ -211,7 +213,7 @@ fn momenta_are_kept_at_an_angle() {
     for nose in ["flat", "hemisphere"] {
         let rod = format!("{ROD}, nose = '{nose}', obliquity = '35 deg'");
         let case = scenario(&rod, PLATE, "width = '40 mm'", 0.2);
-        let mut run = PlaneImpact::build(&case, 0.5, &mut Control::default()).unwrap();
+        let mut run = Impact::<Body, 2>::build(&case, 0.5, &mut Control::default()).unwrap();
         let start = momenta(&run);
         let energy = run.energy().total();
         for _ in 0..3000 {
@@ -230,7 +232,7 @@ fn momenta_are_kept_at_an_angle() {
 }
 
 /// Momenta across and along the normal, and angular momentum about the origin.
-fn momenta(run: &PlaneImpact<'_>) -> [f64; 3] {
+fn momenta(run: &Impact<'_, Body, 2>) -> [f64; 3] {
     let (flight, inertia) = (&run.state.flight, &run.inertia);
     let [u, w] = flight.velocity.map(|part| part * inertia.mass);
     let angular = flight.point[0] * w - flight.point[1] * u + inertia.moment.unwrap() * flight.spin;

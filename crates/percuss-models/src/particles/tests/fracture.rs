@@ -1,6 +1,7 @@
 //! Softening of bonds: their energy, pieces, spall, and what a crack takes.
 
 use super::{displace, solid, strip};
+use crate::particles::bonded::Bonded;
 use crate::{
     options::FailureCriterion::{self, Elongation, PrincipalStress},
     options::Space,

@@ -1,6 +1,7 @@
 //! Elastic constants, strips and plane waves.
 
 use super::{displace, forces, solid, strip};
+use crate::particles::bonded::Bonded;
 use crate::{
     options::Space,
     particles::lattice::{DIRECTIONS, ROW, poissons_ratio_refusal},

@@ -14,6 +14,7 @@ use super::{
     lattice::Solid,
     packing::Packing,
 };
+use crate::particles::bonded::Bonded;
 use crate::{options::Space, solver::Control};
 
 /// Glass of a Poisson's ratio.

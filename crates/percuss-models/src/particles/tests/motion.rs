@@ -1,14 +1,15 @@
 //! Energy, momentum and bits of motions.
 
 use super::strip;
+use crate::particles::bonded::Bonded;
 use crate::{
     options::Space,
     particles::{
         body::{Body, Rows},
+        bonded::Load,
         energy::BodySums,
         lattice::ROW,
         packing::Packing,
-        step::Load,
     },
     solver::Control,
 };
@@ -76,7 +77,7 @@ fn stretch(body: &mut Body, middle: [f64; 2], spin: f64, step: f64) {
                 moment: 0.0,
             }
         };
-        let loads: Vec<Load> = particles.iter().map(load).collect();
+        let loads: Vec<Load<2>> = particles.iter().map(load).collect();
         for motion in &mut body.motion {
             motion.spin.iter_mut().for_each(|spin| *spin *= 0.95);
         }

@@ -1,6 +1,7 @@
 //! Elastic constants, forces and bits of an irregular packing.
 
 use super::{displace, forces, solid};
+use crate::particles::bonded::Bonded;
 use crate::{
     options::Space,
     particles::{
