@@ -16,7 +16,7 @@ use crate::{
 #[schemars(transform = particles_in_schema)]
 #[non_exhaustive]
 pub struct ParticlesOptions {
-    /// Plane in which the bodies deform.
+    /// Plane in which the bodies deform, or space.
     pub space: Option<Space>,
     /// Distance of neighbouring particles [m]; it is reduced until whole rows fill the body.
     pub spacing: Option<Length>,
@@ -50,7 +50,7 @@ pub struct ParticlesOptions {
     pub max_steps: Option<u64>,
 }
 
-/// Plane in which bodies deform.
+/// Plane in which bodies deform, or space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Space {
@@ -59,6 +59,9 @@ pub enum Space {
     PlaneStrain,
     /// Thin plates seen from their face: no stress across the plane. Poisson's ratio up to 1/3.
     PlaneStress,
+    /// Bodies in space. Poisson's ratio up to 0.4.
+    #[serde(rename = "3d")]
+    ThreeDimensional,
 }
 
 /// What starts the softening of a bond.
@@ -109,18 +112,22 @@ impl Notch {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PackingKind {
-    /// On a regular lattice, whose rows are along the struck face: cracks like to follow its directions.
+    /// In a plane, on a regular lattice, whose rows are along the struck face: cracks like to follow its directions.
     Hexagonal,
+    /// In space, on a body-centred cubic lattice.
+    #[serde(rename = "body-centred-cubic")]
+    Cubic,
     /// Moved from it at random.
     Irregular,
 }
 
 impl Space {
-    /// The plane in words.
+    /// Plane or space in words.
     pub fn describe(self) -> &'static str {
         match self {
             Self::PlaneStrain => "plane strain",
             Self::PlaneStress => "plane stress",
+            Self::ThreeDimensional => "three dimensions",
         }
     }
 }
@@ -155,7 +162,7 @@ const MOST_NOTCHES: usize = 64;
 const FRICTION: Limits = Limits { min: 0.0, max: 2.0 };
 
 defaults! { ParticlesOptions, particles_in_schema {
-    /// Plane in which the bodies deform.
+    /// Plane in which the bodies deform, or space.
     space: Space = Space::PlaneStrain;
     /// Outline of a target in the plane.
     outline: Outline = Outline::Plate;
@@ -174,7 +181,7 @@ defaults! { ParticlesOptions, particles_in_schema {
     /// Coefficient of friction between pieces.
     friction: f64 = 0.3;
     depending fracture: "`true` where the material of the lattice has a table `fracture`, otherwise `false`";
-    depending packing: "`\"irregular\"` where bonds break, otherwise `\"hexagonal\"`";
+    depending packing: "`\"irregular\"` where bonds break, otherwise the regular lattice: `\"hexagonal\"`, or `\"body-centred-cubic\"` in space";
     depending softening: "that which has both the fracture energy and the tensile strength of the material, and at least 3";
     depending end_time: "where bonds break, ten times what a longitudinal wave takes across the body and the time in which the projectile \
         goes its thickness; otherwise long enough for the case to end by itself";
@@ -205,6 +212,7 @@ impl ParticlesOptions {
             }
         }
         self.check_use(check);
+        self.check_space(check);
         if let Some(time) = self.end_time {
             check.quantity("end_time", time, limits::TIME);
         }
@@ -262,6 +270,41 @@ impl ParticlesOptions {
         }
     }
 
+    /// Reports keys that bodies in space do not have, or those of a plane.
+    fn check_space(&self, check: &mut Check<'_>) {
+        let in_space = self.space() == Space::ThreeDimensional;
+        let (other, own) = match in_space {
+            true => (PackingKind::Hexagonal, "body-centred-cubic"),
+            false => (PackingKind::Cubic, "hexagonal"),
+        };
+        if self.packing == Some(other) {
+            let message = format!("no packing in {}", self.space().describe());
+            check.fail(
+                "packing",
+                message,
+                format!("allowed: \"{own}\", \"irregular\""),
+            );
+        }
+        for (key, given) in [
+            ("outline", self.outline.is_some()),
+            ("notches", self.notches.is_some()),
+            (
+                "failure_criterion",
+                self.failure_criterion == Some(FailureCriterion::PrincipalStress),
+            ),
+            (
+                "friction",
+                self.friction.is_some_and(|friction| friction != 0.0),
+            ),
+        ] {
+            if given && in_space {
+                let message =
+                    format!("`{key}` is of plane bodies: in three dimensions there is none yet");
+                check.fail(key, message, "remove the key, or give another `space`");
+            }
+        }
+    }
+
     /// Reports keys without effect.
     fn check_use(&self, check: &mut Check<'_>) {
         let irregular = match (self.packing, self.fracture) {
@@ -275,7 +318,7 @@ impl ParticlesOptions {
             if given && !irregular {
                 check.fail(
                     key,
-                    format!("`{key}` has no effect: the packing is \"hexagonal\""),
+                    format!("`{key}` has no effect: the packing is regular"),
                     "remove the key, or give `packing = \"irregular\"`",
                 );
             }

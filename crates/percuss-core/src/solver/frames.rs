@@ -33,6 +33,15 @@ pub struct Bond {
     pub damage: f32,
 }
 
+/// Places of particles in space, across the plane of the first axis and the depth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Across {
+    /// Distance from the plane [m] and velocity away from it [m/s] of every particle, counted over all bodies.
+    pub places: Vec<[f64; 2]>,
+    /// Thickness of the section that a picture shows [m].
+    pub section: f64,
+}
+
 /// Where a model has its fields.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
@@ -45,6 +54,8 @@ pub enum Fields<'a> {
         bodies: Vec<Cow<'a, [Particle]>>,
         /// Bonds between particles; none of a model that has none.
         bonds: Vec<Bond>,
+        /// What particles in space have beside their plane; none of plane and axisymmetric bodies.
+        across: Option<Across>,
     },
     /// In elements along the axis, from the projectile's tail to the rear face of the target.
     Elements(Vec<ElementState>),
@@ -61,6 +72,19 @@ impl Fields<'_> {
             let present = particles.iter().filter(|particle| particle.mass > 0.0);
             present.map(move |particle| (index, particle))
         })
+    }
+
+    /// The same, of bodies in space only those of the section that a picture shows.
+    pub fn section(&self) -> impl Iterator<Item = (usize, &Particle)> {
+        let across = match self {
+            Self::Particles { across, .. } => across.as_ref(),
+            Self::Elements(_) => None,
+        };
+        let shown = move |number: usize| {
+            across.is_none_or(|across| across.places[number][0].abs() <= 0.5 * across.section)
+        };
+        let all = self.particles().enumerate();
+        all.filter_map(move |(number, found)| shown(number).then_some(found))
     }
 }
 

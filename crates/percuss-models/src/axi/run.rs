@@ -262,6 +262,7 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
             cell: self.grid.mesh.cell,
             bodies: bodies.map(|body| body.particles().collect()).collect(),
             bonds: Vec::new(),
+            across: None,
         }
     }
 

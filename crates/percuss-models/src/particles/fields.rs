@@ -126,8 +126,65 @@ pub(super) fn particle(body: &Body, row: usize, place: usize) -> Particle {
     }
 }
 
+/// Points that fill a rigid body of revolution, as rings, and what they have across the plane.
+pub(super) fn round<B: Bonded<D>, const D: usize>(
+    run: &Impact<'_, B, D>,
+) -> (Vec<Particle>, Vec<[f64; 2]>) {
+    let mut points = Vec::new();
+    let mut across = Vec::new();
+    let pose = run.pose();
+    for point in rigid_points(run) {
+        let [radius, z] = point.at;
+        if radius < 0.0 {
+            continue;
+        }
+        let count = (2.0 * std::f64::consts::PI * radius / point.size)
+            .round()
+            .max(1.0);
+        for number in 0..count as u32 {
+            let angle = 2.0 * std::f64::consts::PI * f64::from(number) / count;
+            let place = pose.place([radius * angle.cos(), z]);
+            points.push(Particle {
+                position: place,
+                velocity: run.state.flight.velocity_at(place),
+                volume: point.size.powi(3),
+                sides: [point.size, point.size],
+                ..Particle::default()
+            });
+            across.push([radius * angle.sin(), 0.0]);
+        }
+    }
+    let share = run.inertia.mass / points.len().max(1) as f64;
+    for point in &mut points {
+        point.mass = share;
+    }
+    (points, across)
+}
+
+/// A point of a rigid projectile in its own frame.
+struct RigidPoint {
+    at: [f64; 2],
+    size: f64,
+}
+
 /// Points that fill a rigid projectile, which show where it is; of a long one only what a picture of the lattice has room for.
 pub(super) fn rigid<B: Bonded<D>, const D: usize>(run: &Impact<'_, B, D>) -> Vec<Particle> {
+    let points = rigid_points(run);
+    let share = run.inertia.mass / points.len().max(1) as f64;
+    let pose = run.pose();
+    let of = |RigidPoint { at, size }: RigidPoint| Particle {
+        position: pose.place(at),
+        velocity: run.state.flight.velocity_at(pose.place(at)),
+        mass: share,
+        volume: size * size,
+        sides: [size, size],
+        ..Particle::default()
+    };
+    points.into_iter().map(of).collect()
+}
+
+/// A section of a rigid projectile as even points.
+fn rigid_points<B: Bonded<D>, const D: usize>(run: &Impact<'_, B, D>) -> Vec<RigidPoint> {
     let Rigid::Projectile(shape) = run.rigid else {
         return Vec::new();
     };
@@ -143,21 +200,11 @@ pub(super) fn rigid<B: Bonded<D>, const D: usize>(run: &Impact<'_, B, D>) -> Vec
                 -(f64::from(row) + 0.5) * size,
             ];
             if -at[1] < length && shape.penetration(at).is_some() {
-                points.push(at);
+                points.push(RigidPoint { at, size });
             }
         }
     }
-    let share = run.inertia.mass / points.len().max(1) as f64;
-    let pose = run.pose();
-    let of = |point: [f64; 2]| Particle {
-        position: pose.place(point),
-        velocity: run.state.flight.velocity_at(pose.place(point)),
-        mass: share,
-        volume: size * size,
-        sides: [size, size],
-        ..Particle::default()
-    };
-    points.into_iter().map(of).collect()
+    points
 }
 
 impl Body {

@@ -14,13 +14,15 @@ const ROUNDS: usize = 30;
 /// Least deformation at which a bond starts to soften, and least one at which it has failed, in its start.
 const LEAST_START: f64 = 1e-3;
 const LEAST_END: f64 = 1.02;
+/// Factors on the energy of a crack at three softenings, which rise.
+pub(super) type Table = [(f64, f64); 3];
 /// Softening and lattice factor of the regular lattice along its rows, measured on a clamped strip with a slit.
-const REGULAR: [(f64, f64); 3] = [(1.0, 2.7), (3.0, 1.05), (10.0, 1.0)];
+const REGULAR: Table = [(1.0, 2.7), (3.0, 1.05), (10.0, 1.0)];
 /// The same of the irregular packing, mean over five seeds; the first entry is an estimate.
-const IRREGULAR: [(f64, f64); 3] = [(1.0, 3.6), (3.0, 1.22), (10.0, 1.05)];
+const IRREGULAR: Table = [(1.0, 3.6), (3.0, 1.22), (10.0, 1.05)];
 /// Both where the principal stress around a bond starts its softening; the first entries are estimates.
-const REGULAR_BY_STRESS: [(f64, f64); 3] = [(1.0, 8.0), (3.0, 2.56), (10.0, 1.37)];
-const IRREGULAR_BY_STRESS: [(f64, f64); 3] = [(1.0, 8.0), (3.0, 2.52), (10.0, 1.26)];
+const REGULAR_BY_STRESS: Table = [(1.0, 8.0), (3.0, 2.56), (10.0, 1.37)];
+const IRREGULAR_BY_STRESS: Table = [(1.0, 8.0), (3.0, 2.52), (10.0, 1.26)];
 
 /// Packing and failure criterion of bonds, on which the energy of a crack depends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,6 +63,11 @@ pub(super) fn lattice_factor(bonds: BondKind, softening: f64) -> f64 {
         (FailureCriterion::PrincipalStress, false) => REGULAR_BY_STRESS,
         (FailureCriterion::PrincipalStress, true) => IRREGULAR_BY_STRESS,
     };
+    interpolated(table, softening)
+}
+
+/// Value of a table at a softening.
+pub(super) fn interpolated(table: Table, softening: f64) -> f64 {
     let at = softening.clamp(table[0].0, table[2].0).ln();
     let piece = if softening < table[1].0 { 0 } else { 1 };
     let ((low, first), (high, second)) = (table[piece], table[piece + 1]);
@@ -79,14 +86,19 @@ pub(super) fn exact_softening(
     let ratio = solid.poissons_ratio;
     let modulus = match space {
         Space::PlaneStrain => solid.youngs_modulus / (1.0 - ratio * ratio),
-        Space::PlaneStress => solid.youngs_modulus,
+        Space::PlaneStress | Space::ThreeDimensional => solid.youngs_modulus,
     };
     // ½ k_n e₀² r = G_f d/(2 α), and a bond along the tension is strained by σ/E'.
     let by_factor = modulus * modulus * toughness.energy
         / (lattice.normal * lattice.spacing * toughness.strength * toughness.strength);
-    let mut softening: f64 = by_factor;
+    solved(by_factor, |softening| lattice_factor(bonds, softening))
+}
+
+/// Softening that is a number over the lattice factor that belongs to it.
+pub(super) fn solved(number: f64, factor: impl Fn(f64) -> f64) -> f64 {
+    let mut softening = number;
     for _ in 0..ROUNDS {
-        softening = 0.5 * (softening + by_factor / lattice_factor(bonds, softening));
+        softening = 0.5 * (softening + number / factor(softening));
     }
     softening
 }
@@ -101,6 +113,18 @@ impl Softening {
             ratio: lattice.shear / lattice.normal,
             strength: lattice.plane_modulus() * square.sqrt() / lattice.spacing,
             by_stress: bonds.criterion == FailureCriterion::PrincipalStress,
+            end,
+        }
+    }
+
+    /// Softening of bonds without a shear spring, by their elongation: one over the length of a bond and the square of the strain of its start [1/m], and the
+    /// strength that it stands for [Pa].
+    pub(super) fn of_strain(per_square: f64, strength: f64, end: f64) -> Self {
+        Self {
+            per_square,
+            ratio: 0.0,
+            strength,
+            by_stress: false,
             end,
         }
     }

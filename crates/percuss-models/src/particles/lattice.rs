@@ -42,12 +42,19 @@ pub(super) struct Solid {
 }
 
 impl Solid {
+    /// Lamé's constants `λ` and `μ` [Pa].
+    pub(super) fn constants(&self) -> (f64, f64) {
+        self.plane_constants(Space::PlaneStrain)
+    }
+
     /// Lamé's constants `λ'` and `μ` of a plane [Pa].
     pub(super) fn plane_constants(&self, space: Space) -> (f64, f64) {
         let (modulus, ratio) = (self.youngs_modulus, self.poissons_ratio);
         let shear = modulus / (2.0 * (1.0 + ratio));
         let first = match space {
-            Space::PlaneStrain => modulus * ratio / ((1.0 + ratio) * (1.0 - 2.0 * ratio)),
+            Space::PlaneStrain | Space::ThreeDimensional => {
+                modulus * ratio / ((1.0 + ratio) * (1.0 - 2.0 * ratio))
+            }
             Space::PlaneStress => modulus * ratio / (1.0 - ratio * ratio),
         };
         (first, shear)
@@ -69,25 +76,39 @@ impl Solid {
             inertia: (mass * spacing * spacing / 8.0).max(least),
             wave_speed,
             out_of_plane: match space {
-                Space::PlaneStrain => self.poissons_ratio,
                 Space::PlaneStress => 0.0,
+                Space::PlaneStrain | Space::ThreeDimensional => self.poissons_ratio,
             },
         }
     }
 }
 
-/// Largest Poisson's ratio that springs reach: beyond it the shear spring would be negative and the lattice unstable.
+/// Largest Poisson's ratio that the springs of a plane reach: beyond it the shear spring would be negative and the lattice unstable. In space the stiffness of
+/// the volume has any; its bound is what is tested.
 pub(super) fn largest_poissons_ratio(space: Space) -> f64 {
     match space {
         Space::PlaneStrain => 0.25,
         Space::PlaneStress => 1.0 / 3.0,
+        Space::ThreeDimensional => LARGEST_IN_SPACE,
     }
 }
+
+/// Largest Poisson's ratio in space.
+const LARGEST_IN_SPACE: f64 = 0.4;
 
 /// Why springs cannot stand for a material of a Poisson's ratio, if they cannot.
 pub(super) fn poissons_ratio_refusal(space: Space, ratio: f64, id: &str) -> Option<Refusal> {
     let largest = largest_poissons_ratio(space);
+    let in_space = space == Space::ThreeDimensional;
     (ratio > largest).then(|| {
+        if in_space {
+            let reason = format!(
+                "in three dimensions it is made for a Poisson's ratio up to {}, and the material `{id}` has {}",
+                significant(largest, 3),
+                significant(ratio, 3)
+            );
+            return Refusal::new(reason).with_remedy("use the model `axi`");
+        }
         let reason = format!(
             "springs reach a Poisson's ratio of {} in {}, and the material `{id}` has {}: its shear spring would be negative, \
              and the lattice unstable",
@@ -159,7 +180,7 @@ impl Lattice {
 }
 
 /// Eigenvalues of a symmetric matrix in rising order, by their trigonometric formula.
-fn eigenvalues(matrix: &[[f64; 3]; 3]) -> [f64; 3] {
+pub(super) fn eigenvalues(matrix: &[[f64; 3]; 3]) -> [f64; 3] {
     let mean = (matrix[0][0] + matrix[1][1] + matrix[2][2]) / 3.0;
     let mut shifted = *matrix;
     for (index, row) in shifted.iter_mut().enumerate() {

@@ -4,6 +4,7 @@ mod body;
 mod bonded;
 mod bonds;
 mod cracks;
+mod cubic;
 mod debris;
 mod energy;
 mod fields;
@@ -31,7 +32,7 @@ pub use lammps::{LammpsInput, lammps};
 
 pub use crate::options::{FailureCriterion, PackingKind, ParticlesOptions, Space};
 
-use self::{body::Body, run::ParticlesRun};
+use self::{body::Body, cubic::CubicBody, run::ParticlesRun};
 use crate::{
     Error, Refusal, Scenario,
     outcome::{BandQuantity, RunResult},
@@ -62,7 +63,7 @@ pub fn breaks(scenario: &Scenario) -> bool {
 
 /// Whether the packing of a case has random numbers.
 pub fn has_seeds(scenario: &Scenario) -> bool {
-    setup::packing(scenario) != packing::Packing::Hexagonal
+    setup::packing(scenario) != packing::Packing::Regular
 }
 
 /// The same case with the packing of another seed: another specimen of the same solid.
@@ -138,6 +139,13 @@ impl Model for Particles {
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
-        ParticlesRun::<Body, 2>::new(scenario, control)?.run(control)
+        match scenario.options.particles.space() {
+            Space::ThreeDimensional => {
+                ParticlesRun::<CubicBody, 3>::new(scenario, control)?.run(control)
+            }
+            Space::PlaneStrain | Space::PlaneStress => {
+                ParticlesRun::<Body, 2>::new(scenario, control)?.run(control)
+            }
+        }
     }
 }

@@ -19,8 +19,8 @@ const COLUMNS: u64 = 1 << 24;
 /// Packing of the particles of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Packing {
-    /// On the places of the hexagonal lattice.
-    Hexagonal,
+    /// On the places of the lattice.
+    Regular,
     /// Moved from them.
     Irregular(Moved),
 }
@@ -45,6 +45,18 @@ impl Moved {
             }
         }
         [0.0; 2]
+    }
+
+    /// A point of a ball of the amplitude, in spacings: even over its volume, drawn for the number of a particle.
+    pub(super) fn draw_in_space(&self, number: u64) -> [f64; 3] {
+        let first = number * 3 * DRAWS;
+        for draw in 0..DRAWS {
+            let point = [0, 1, 2].map(|axis| 2.0 * unit(self.seed, first + 3 * draw + axis) - 1.0);
+            if point.iter().map(|part| part * part).sum::<f64>() <= 1.0 {
+                return point.map(|part| self.amplitude * part);
+            }
+        }
+        [0.0; 3]
     }
 
     /// How far a particle is moved [m]: on the faces along them, at the sides of rows not at all.

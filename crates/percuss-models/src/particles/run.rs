@@ -22,7 +22,7 @@ use crate::{
         Control, Particle,
         archive::Archive,
         driver::Drive,
-        frames::Fields,
+        frames::{Across, Fields},
         gauge::Gauge,
         interface::{Audit, BalanceTolerance, Extremes, Retry, Solver},
         limits::Limits,
@@ -343,15 +343,25 @@ impl<'a, B: Bonded<D>, const D: usize> Solver<'a> for Impact<'a, B, D> {
 
     fn fields(&self) -> Fields<'_> {
         let mut bodies: Vec<Cow<'_, [Particle]>> = Vec::new();
+        let mut across = Vec::new();
         if self.rigid != Rigid::Wall {
-            bodies.push(Cow::Owned(self.body.show_rigid(self)));
+            let (points, beside) = self.body.show_rigid(self);
+            bodies.push(Cow::Owned(points));
+            across = beside;
         }
         let before = bodies.iter().map(|body| body.len()).sum();
         bodies.push(Cow::Owned(fields::whole(&self.body)));
+        let of_body =
+            (self.body.particles()).filter_map(|(row, place)| self.body.across(row, place));
+        across.extend(of_body);
         Fields::Particles {
             cell: self.body.spacing(),
             bonds: fields::bonds(&self.body, before),
             bodies,
+            across: (D == 3).then(|| Across {
+                places: across,
+                section: self.body.section(),
+            }),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::{
     body::{Body, Rows},
+    cubic::{Cubic, LAYER},
     flight::{Flight, Inertia},
     fracture::{self, BondKind, LEAST_SOFTENING, Softening, Toughness},
     lattice::{Lattice, ROW, Solid, poissons_ratio_refusal},
@@ -12,7 +13,7 @@ use super::{
 use crate::{
     Error, Refusal, Scenario,
     material::{Material, Strength},
-    options::{Outline, PackingKind, ParticlesOptions},
+    options::{Outline, PackingKind, ParticlesOptions, Space},
     problem::RearFaceCondition,
     scenario::{Plate, TargetBody},
     solver::{Control, limits::Limits},
@@ -42,6 +43,8 @@ pub(super) struct Extent {
     pub(super) start: f64,
     /// Distance of particles that is asked for [m].
     spacing: f64,
+    /// Whether it is a body in space.
+    in_space: bool,
 }
 
 /// The layer of the target, if it has one.
@@ -105,6 +108,7 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
 pub(super) fn extent(scenario: &Scenario) -> Extent {
     let rod = &scenario.projectile;
     let options: &ParticlesOptions = &scenario.options.particles;
+    let in_space = options.space() == Space::ThreeDimensional;
     let spacing = |length: f64| {
         let default = rod.diameter.min(length) / SPACINGS;
         options.spacing.map_or(default, |spacing| spacing.si())
@@ -122,6 +126,7 @@ pub(super) fn extent(scenario: &Scenario) -> Extent {
                 width: options.width.map_or(default, |width| width.si()),
                 start: 0.0,
                 spacing: spacing(thickness),
+                in_space,
             }
         }
         None => Extent {
@@ -129,45 +134,69 @@ pub(super) fn extent(scenario: &Scenario) -> Extent {
             width: rod.diameter,
             start: -rod.length,
             spacing: spacing(rod.length),
+            in_space,
         },
     }
 }
 
 impl Extent {
-    /// Layers of triangles along the normal of the struck face.
-    fn layers(&self) -> f64 {
-        (self.length / (ROW * self.spacing) - 1e-9)
+    /// Distance of rows or layers over that of particles.
+    fn row(&self) -> f64 {
+        if self.in_space { LAYER } else { ROW }
+    }
+
+    /// Rows or layers less one.
+    pub(super) fn layers(&self) -> f64 {
+        (self.length / (self.row() * self.spacing) - 1e-9)
             .ceil()
             .max(LEAST)
     }
 
-    /// Distance of particles: whole layers of triangles fill the length [m].
+    /// Distance of particles: whole layers fill the length [m].
     pub(super) fn spacing(&self) -> f64 {
-        self.length / (ROW * self.layers())
+        self.length / (self.row() * self.layers())
     }
 
-    /// Particles of an even row: two of them and an odd row between bound triangles of this mean width.
-    fn columns(&self) -> f64 {
-        (self.width / self.spacing() + 1.5).round().max(LEAST + 1.0)
+    /// Particles of an even row: in a plane two of them and an odd row between bound triangles of this mean width.
+    pub(super) fn columns(&self) -> f64 {
+        let columns = match self.in_space {
+            true => self.width / (2.0 * self.row() * self.spacing()) + 1.0,
+            false => self.width / self.spacing() + 1.5,
+        };
+        columns.round().max(LEAST + 1.0)
     }
 
     /// Number of particles.
     pub(super) fn particles(&self) -> f64 {
-        (self.layers() + 1.0) * self.columns()
+        let (layers, columns) = (self.layers() + 1.0, self.columns());
+        match self.in_space {
+            true => 0.5 * layers * (columns.powi(2) + (columns - 1.0).powi(2)),
+            false => layers * columns,
+        }
     }
 }
 
 /// Time step [s], expected duration [s] and limits of a run before it starts.
 pub(super) fn expected(scenario: &Scenario) -> (f64, f64, Limits) {
     let options = &scenario.options.particles;
-    let lattice = solid(scenario).lattice(options.space(), extent(scenario).spacing());
-    let time_step = options.courant() * 2.0 / lattice.largest_frequency();
+    let (solid, spacing) = (solid(scenario), extent(scenario).spacing());
+    let (wave_speed, frequency) = match options.space() {
+        Space::ThreeDimensional => {
+            let lattice = Cubic::of(&solid, spacing);
+            (lattice.wave_speed, lattice.largest_frequency())
+        }
+        plane => {
+            let lattice = solid.lattice(plane, spacing);
+            (lattice.wave_speed, lattice.largest_frequency())
+        }
+    };
+    let time_step = options.courant() * 2.0 / frequency;
     let end = match layer(scenario) {
-        Some(_) => time_of_cracks(scenario, lattice.wave_speed),
-        None => WAYS_ON_WALL * extent(scenario).length / lattice.wave_speed,
+        Some(_) => time_of_cracks(scenario, wave_speed),
+        None => WAYS_ON_WALL * extent(scenario).length / wave_speed,
     };
     let breaks = toughness(scenario).is_some();
-    (time_step, end, limits(scenario, lattice.wave_speed, breaks))
+    (time_step, end, limits(scenario, wave_speed, breaks))
 }
 
 /// Limits of a run, whose bonds break or not.
@@ -196,7 +225,7 @@ pub(super) fn packing(scenario: &Scenario) -> Packing {
         None => PackingKind::Hexagonal,
     };
     match options.packing.unwrap_or(default) {
-        PackingKind::Hexagonal => Packing::Hexagonal,
+        PackingKind::Hexagonal | PackingKind::Cubic => Packing::Regular,
         PackingKind::Irregular => Packing::Irregular(Moved {
             amplitude: options.amplitude(),
             seed: options.seed(),
@@ -206,12 +235,12 @@ pub(super) fn packing(scenario: &Scenario) -> Packing {
 
 fn bonds(scenario: &Scenario) -> BondKind {
     BondKind {
-        irregular: packing(scenario) != Packing::Hexagonal,
+        irregular: packing(scenario) != Packing::Regular,
         criterion: scenario.options.particles.failure_criterion(),
     }
 }
 
-fn solid(scenario: &Scenario) -> Solid {
+pub(super) fn solid(scenario: &Scenario) -> Solid {
     let (material, _) = material(scenario);
     Solid {
         density: material.density.si(),

@@ -160,6 +160,27 @@ impl Shape {
         (centre, sums[2] - sums[1] * centre)
     }
 
+    /// Volume of the body of revolution [m3], distance of its centre behind the tip [m], and second moment of volume about an axis across it there [m5].
+    pub(super) fn round_moments(&self) -> (f64, f64, f64) {
+        let nose = self.nose_length();
+        let mut sums = [0.0; 3];
+        let mut add = |weight: f64, behind: f64| {
+            let square = self.half_width(behind).powi(2);
+            let volume = weight * std::f64::consts::PI * square;
+            sums[0] += volume;
+            sums[1] += volume * behind;
+            sums[2] += volume * (behind * behind + 0.25 * square);
+        };
+        for i in 0..=PANELS {
+            let t = f64::from(i) / f64::from(PANELS);
+            add(simpson(i) * 2.0 * nose * t, nose * t * t);
+            let shank = self.length - nose;
+            add(simpson(i) * shank, nose + shank * t);
+        }
+        let centre = sums[1] / sums[0];
+        (sums[0], centre, sums[2] - sums[1] * centre)
+    }
+
     /// The point farthest in a direction of unit length, from the tip [m].
     pub(super) fn farthest(&self, [x, z]: [f64; 2]) -> [f64; 2] {
         let (radius, nose) = (self.radius, self.nose_length());

@@ -1,6 +1,6 @@
 //! Fields as a file of VTK's XML format: PolyData, appended raw data, compressed.
 //!
-//! Everything is in SI units. Points stand at (radius, −depth, 0), so that the axis of symmetry is the vertical one and the projectile
+//! Everything is in SI units. Points stand at (radius, −depth, 0), in space at (x, −depth, y), so that the axis of symmetry is the vertical one and the projectile
 //! flies down. Material points are vertices, bonds lines; elements along the axis are rectangles of their length and diameter. Values other than
 //! positions and volumes keep twelve bits of their mantissa, better than one part in 4000.
 
@@ -9,7 +9,7 @@ use std::{fmt::Write as _, io::Write};
 use flate2::{Compression, write::ZlibEncoder};
 use percuss::{
     axi::Particle,
-    frames::{Bond, Fields, Frame},
+    frames::{Across, Bond, Fields, Frame},
     history::ElementState,
 };
 use rayon::prelude::*;
@@ -21,8 +21,7 @@ pub(super) const MARKER: &[u8] = b"<AppendedData encoding=\"raw\">\n_";
 /// An array: name, components, and what it takes of a particle.
 type Column = (&'static str, usize, fn(&Particle) -> [f64; 3]);
 
-const COLUMNS: [Column; 9] = [
-    ("velocity", 3, |p| [p.velocity[0], -p.velocity[1], 0.0]),
+const COLUMNS: [Column; 8] = [
     ("pressure", 1, |p| of(FieldQuantity::Pressure, p)),
     ("von_mises_stress", 1, |p| {
         of(FieldQuantity::VonMisesStress, p)
@@ -41,6 +40,8 @@ fn of(quantity: FieldQuantity, particle: &Particle) -> [f64; 3] {
 
 /// Width and height of a particle's section before the impact.
 pub(super) const SIDES: &str = "sides";
+/// Thickness of the section of bodies in space that pictures show [m].
+pub(super) const SECTION: &str = "section";
 pub(super) const POINTS: &str = "points";
 pub(super) const BODY: &str = "body";
 const BOND_DAMAGE: &str = "bond_damage";
@@ -83,9 +84,14 @@ pub(crate) fn encode(frame: &Frame<'_>) -> Vec<u8> {
 
 fn encode_particles(frame: &Frame<'_>, fields: &Fields<'_>) -> Vec<u8> {
     let particles: Vec<(usize, &Particle)> = fields.particles().collect();
-    let (cell, bonds): (f64, &[Bond]) = match fields {
-        Fields::Particles { cell, bonds, .. } => (*cell, bonds),
-        _ => (0.0, &[]),
+    let (cell, bonds, across): (f64, &[Bond], Option<&Across>) = match fields {
+        Fields::Particles {
+            cell,
+            bonds,
+            across,
+            ..
+        } => (*cell, bonds, across.as_ref()),
+        _ => (0.0, &[], None),
     };
     let of = |exact: bool, components: usize, value: &dyn Fn(&Particle) -> [f64; 3]| {
         let entries = particles
@@ -93,8 +99,20 @@ fn encode_particles(frame: &Frame<'_>, fields: &Fields<'_>) -> Vec<u8> {
             .flat_map(|(_, particle)| value(particle).into_iter().take(components));
         floats(entries, exact)
     };
+    // Vectors of particles in space have a third component.
+    let vectors = |exact: bool, part: usize, value: &dyn Fn(&Particle) -> [f64; 2]| {
+        let entries = particles.iter().enumerate().flat_map(|(number, (_, p))| {
+            let [x, z] = value(p);
+            let y = across.map_or(0.0, |across| across.places[number][part]);
+            [x, -z, y]
+        });
+        floats(entries, exact)
+    };
     let bodies = particles.iter().map(|(body, _)| *body as u8).collect();
-    let mut data: Vec<Array> = vec![(BODY, "UInt8", 1, bodies)];
+    let mut data: Vec<Array> = vec![
+        (BODY, "UInt8", 1, bodies),
+        ("velocity", "Float32", 3, vectors(false, 1, &|p| p.velocity)),
+    ];
     for (name, components, value) in COLUMNS {
         data.push((
             name,
@@ -104,14 +122,16 @@ fn encode_particles(frame: &Frame<'_>, fields: &Fields<'_>) -> Vec<u8> {
         ));
     }
     let count = particles.len();
-    let place = |p: &Particle| [p.position[0], -p.position[1], 0.0];
+    let constants = [
+        ("TimeValue", frame.time),
+        ("cell", cell),
+        ("depth", frame.depth),
+        (SECTION, across.map_or(0.0, |across| across.section)),
+    ];
     assemble(&File {
-        constants: &[
-            ("TimeValue", frame.time),
-            ("cell", cell),
-            ("depth", frame.depth),
-        ],
-        points: (count, of(true, 3, &place)),
+        // Bodies in a plane have no section.
+        constants: &constants[..if across.is_some() { 4 } else { 3 }],
+        points: (count, vectors(true, 0, &|p| p.position)),
         data: (
             "PointData Scalars=\"plastic_strain\" Vectors=\"velocity\"",
             data,
@@ -335,6 +355,7 @@ mod tests {
                 cell: 1e-4,
                 bodies: bodies.iter().map(|body| body[..].into()).collect(),
                 bonds: vec![bond(0, 1, 0.5), bond(1, 2, 1.0)],
+                across: None,
             },
         };
         let file = encode(&frame);

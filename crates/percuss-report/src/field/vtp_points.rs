@@ -4,7 +4,7 @@ use std::io::Read;
 
 use flate2::read::ZlibDecoder;
 
-use super::vtp::{BODY, MARKER, POINTS, SIDES};
+use super::vtp::{BODY, MARKER, POINTS, SECTION, SIDES};
 
 /// What a picture needs of a file.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -62,16 +62,22 @@ pub(crate) fn decode(file: &[u8], array: &str, components: usize) -> Option<Poin
         after(text, &tag, '<')?.parse().ok()
     };
     let floats = |name: &str, components: usize| values(file, name, components);
-    let places: Vec<[f32; 2]> = floats(POINTS, 3)?
+    let points = floats(POINTS, 3)?;
+    let section = number(SECTION).map(|section| section as f32);
+    // Of bodies in space what is near the plane of the picture.
+    let is_shown = |point: &[f32]| section.is_none_or(|section| 2.0 * point[2].abs() <= section);
+    let shown: Vec<bool> = points.chunks_exact(3).map(is_shown).collect();
+    let places: Vec<[f32; 2]> = points
         .chunks_exact(3)
         .map(|point| [point[0], -point[1]])
         .collect();
     let volumes = floats("volume", 1)?;
     // A plane body, which stands on both sides of the axis, has its area for a volume.
     let is_plane = places.iter().any(|[across, _]| *across < 0.0);
-    let size = |([radius, _], volume): (&[f32; 2], &f32)| match is_plane {
-        true => volume.sqrt(),
-        false => (volume / (2.0 * std::f32::consts::PI * radius)).sqrt(),
+    let size = |([radius, _], volume): (&[f32; 2], &f32)| match (section, is_plane) {
+        (Some(section), _) => (volume / section).sqrt(),
+        (None, true) => volume.sqrt(),
+        (None, false) => (volume / (2.0 * std::f32::consts::PI * radius)).sqrt(),
     };
     let points = Points {
         time: number("TimeValue")?,
@@ -91,10 +97,33 @@ pub(crate) fn decode(file: &[u8], array: &str, components: usize) -> Option<Poin
         .chunks_exact(2)
         .map(|pair| [pair[0], pair[1]])
         .collect();
+    let (points, sides) = match section {
+        Some(_) => points.only(&shown, &sides),
+        None => (points, sides),
+    };
     Some(points.in_equal_parts(&sides))
 }
 
 impl Points {
+    /// Those that are shown, with their sides.
+    fn only(self, shown: &[bool], sides: &[[f32; 2]]) -> (Self, Vec<[f32; 2]>) {
+        fn kept<T: Copy>(of: &[T], shown: &[bool]) -> Vec<T> {
+            let pairs = of.iter().zip(shown);
+            pairs
+                .filter(|(_, shown)| **shown)
+                .map(|(of, _)| *of)
+                .collect()
+        }
+        let points = Self {
+            places: kept(&self.places, shown),
+            bodies: kept(&self.bodies, shown),
+            sizes: kept(&self.sizes, shown),
+            values: kept(&self.values, shown),
+            ..self
+        };
+        (points, kept(sides, shown))
+    }
+
     /// Large particles as several of the size that most have: a picture closes gaps of that size.
     fn in_equal_parts(self, sides: &[[f32; 2]]) -> Self {
         /// Along a side: beyond, no picture shows a difference.

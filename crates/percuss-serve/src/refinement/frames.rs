@@ -95,7 +95,7 @@ impl<'a> FrameEncoder<'a> {
         if first {
             *self = Self::new(self.scenario, self.cells);
         }
-        let particles: Vec<(usize, &Particle)> = frame.fields.particles().collect();
+        let particles: Vec<(usize, &Particle)> = frame.fields.section().collect();
         let selection = self
             .selection
             .get_or_insert_with(|| FrameSelection::new(most_frames(particles.len())));

@@ -126,7 +126,7 @@ fn a_slot_is_empty_and_its_crack_starts_at_the_tip() {
         lattice,
         rows,
         0.0,
-        Packing::Hexagonal,
+        Packing::Regular,
         &mut Control::default(),
     )
     .unwrap();
@@ -135,7 +135,7 @@ fn a_slot_is_empty_and_its_crack_starts_at_the_tip() {
     let slots = [Slot::new(ends, width)];
     let control = &mut Control::default();
     let mut body =
-        Body::slotted_strip(lattice, rows, 0.0, Packing::Hexagonal, &slots, control).unwrap();
+        Body::slotted_strip(lattice, rows, 0.0, Packing::Regular, &slots, control).unwrap();
     let in_slot = |[x, z]: [f64; 2]| {
         let below = z - (tip[1] - 0.5 * width);
         (x - tip[0]).hypot(below.max(0.0)) < 0.5 * width
@@ -171,7 +171,7 @@ fn a_disc_has_the_mass_of_its_circle() {
             count: layers as usize + 1,
             particles: columns,
         };
-        let body = Body::disc(lattice, rows, Packing::Hexagonal, &mut Control::default()).unwrap();
+        let body = Body::disc(lattice, rows, Packing::Regular, &mut Control::default()).unwrap();
         let exact = 0.25 * PI * diameter * diameter * 2500.0;
         let error = body.mass() / exact - 1.0;
         println!("disc of {layers} layers: mass {:+.2} %", 100.0 * error);

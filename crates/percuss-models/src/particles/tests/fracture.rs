@@ -131,9 +131,9 @@ fn pieces_are_those_between_the_cuts() {
 #[test]
 fn the_energy_balance_closes_while_bonds_break() {
     for (packing, kind) in [
-        (Packing::Hexagonal, REGULAR),
+        (Packing::Regular, REGULAR),
         (irregular(2), bonds(true, Elongation)),
-        (Packing::Hexagonal, bonds(false, PrincipalStress)),
+        (Packing::Regular, bonds(false, PrincipalStress)),
         (irregular(2), bonds(true, PrincipalStress)),
     ] {
         let lattice = solid(RATIO).lattice(SPACE, SPACING);
@@ -333,7 +333,7 @@ fn a_steep_pull_back_is_rounded_over_a_few_rows() {
 
 /// Clamped strip with a slit, strained across it: energy per area at which the slit runs, over the fracture energy.
 fn factor_of_start(packing: Packing, criterion: FailureCriterion, columns: usize, end: f64) -> f64 {
-    let kind = bonds(packing != Packing::Hexagonal, criterion);
+    let kind = bonds(packing != Packing::Regular, criterion);
     let mut lattice = solid(RATIO).lattice(SPACE, SPACING);
     if let Packing::Irregular(moved) = packing {
         lattice = moved.tuned(&lattice);
@@ -431,7 +431,7 @@ fn a_crack_along_the_rows_takes_the_energy_of_the_table() {
         (PrincipalStress, 3.0),
         (PrincipalStress, 10.0),
     ] {
-        let found = factor_of_start(Packing::Hexagonal, criterion, 90, end);
+        let found = factor_of_start(Packing::Regular, criterion, 90, end);
         println!("regular, {criterion:?}, softening {end}: {found}");
         let expected = lattice_factor(bonds(false, criterion), end);
         assert!(

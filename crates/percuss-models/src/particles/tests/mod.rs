@@ -2,6 +2,7 @@
 
 mod contact;
 mod cracks;
+mod cubic;
 mod debris;
 mod flight;
 mod fracture;
@@ -36,7 +37,7 @@ pub(super) fn strip(space: Space, ratio: f64, rows: usize, particles: usize) -> 
             particles,
         },
         0.0,
-        Packing::Hexagonal,
+        Packing::Regular,
         &mut Control::default(),
     )
     .unwrap()

@@ -29,7 +29,7 @@ fn disc(radius: f64) -> Body {
             particles,
         },
         0.0,
-        Packing::Hexagonal,
+        Packing::Regular,
         |row, column| {
             let x = column as f64 + 0.5 * (row % 2) as f64 - middle.1;
             let z = (row as f64 - middle.0) * ROW;

@@ -1,0 +1,15 @@
+//! Bodies in space: particles on a body-centred cubic lattice, with springs to their fourteen neighbours and a stiffness of each particle's volume.
+//!
+//! All forces are central, so particles need no rotation.
+
+mod body;
+mod kernels;
+mod lattice;
+mod run;
+pub(super) mod setup;
+mod step;
+mod toughness;
+
+#[cfg(test)]
+pub(super) use self::body::Grid;
+pub(super) use self::{body::CubicBody, lattice::Cubic, setup::LAYER};
