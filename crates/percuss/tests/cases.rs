@@ -216,6 +216,7 @@ cases! {
     rigid_on_glass_plane: "rigid-on-glass-plane",
     cracks_in_glass_plate: "cracks-in-glass-plate",
     oblique_strip_on_glass: "oblique-strip-on-glass",
+    ball_on_glass_plate: "ball-on-glass-plate",
     cracks_from_two_notches: "cracks-from-two-notches",
     spall_two_plates: "spall-two-plates",
     spall_delayed: "spall-delayed",

@@ -23,6 +23,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("lattice under a rigid nose", "particles", LATTICE),
     ("pieces of a lattice", "particles", PIECES),
     ("pieces at an angle", "particles", OBLIQUE),
+    ("pieces in space", "particles", IN_SPACE),
     ("cracks from a notch", "particles", NOTCHED),
     ("disc", "particles", DISC),
     ("bonds that fail by their stress", "particles", BY_STRESS),
@@ -87,6 +88,14 @@ const OBLIQUE: &str = concat!(
     projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "30 m/s", nose = "hemisphere", obliquity = "40 deg" }
     target = { material = "brittle", thickness = "5 mm", back_face = "free" }
     particles = { spacing = "0.7 mm", width = "40 mm", end_time = "40 us" }
+"#,
+    hard_and_brittle!()
+);
+const IN_SPACE: &str = concat!(
+    r#"
+    projectile = { material = "hard", length = "6 mm", diameter = "6 mm", impact_velocity = "30 m/s", nose = "hemisphere", obliquity = "20 deg" }
+    target = { material = "brittle", thickness = "4 mm", back_face = "free" }
+    particles = { space = "3d", spacing = "0.9 mm", width = "16 mm", end_time = "12 us", courant = 0.3 }
 "#,
     hard_and_brittle!()
 );
@@ -218,7 +227,7 @@ fn every_solver_continues_from_a_checkpoint_with_the_same_bits() {
 /// Bonds that break, pieces that meet, notches: none of it depends on how the work is shared.
 #[test]
 fn cracks_have_the_same_bits_on_any_number_of_threads() {
-    for text in [PIECES, OBLIQUE, NOTCHED, DISC, BY_STRESS] {
+    for text in [PIECES, OBLIQUE, IN_SPACE, NOTCHED, DISC, BY_STRESS] {
         let scenario = scenario(text);
         let on = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);

@@ -36,6 +36,8 @@ impl ResultUnit {
     pub const NONE: Self = si(["", ""]);
     /// Length.
     pub const MM: Self = scaled(["mm", "_mm"], ["m", "_m"], 1e3);
+    /// Area.
+    pub const MM2: Self = scaled(["mm2", "_mm2"], ["m2", "_m2"], 1e6);
     /// Mass.
     pub const G: Self = scaled(["g", "_g"], ["kg", "_kg"], 1e3);
     /// Time.

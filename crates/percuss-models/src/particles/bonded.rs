@@ -37,7 +37,7 @@ pub(super) struct Load<const D: usize> {
 }
 
 /// A body of bonded particles in rows or layers.
-pub(super) trait Bonded<const D: usize>: Debug + Clone {
+pub(super) trait Bonded<const D: usize>: Debug + Clone + Sync {
     /// Name of its lattice in checkpoints.
     const LATTICE: &'static str;
     /// Kinds of bonds that start at a particle.
@@ -81,6 +81,8 @@ pub(super) trait Bonded<const D: usize>: Debug + Clone {
     fn reference(&self, row: usize, place: usize) -> [f64; D];
     /// Position of a particle now [m].
     fn position(&self, row: usize, place: usize) -> [f64; D];
+    /// Displacement of a particle [m].
+    fn displacement(&self, row: usize, place: usize) -> [f64; D];
     /// Velocity of a particle half a step ago [m/s].
     fn velocity(&self, row: usize, place: usize) -> [f64; D];
     /// Angular velocity of a particle half a step ago [rad/s].
@@ -156,6 +158,11 @@ pub(super) trait Bonded<const D: usize>: Debug + Clone {
         })
     }
 
+    /// Depth of a particle now [m].
+    fn depth(&self, row: usize, place: usize) -> f64 {
+        self.position(row, place)[D - 1]
+    }
+
     /// Places of the particles of a row that are at depths of a range [m]. Of a body that does not break only rows that began near to it have any.
     fn between(&self, row: usize, depths: &std::ops::Range<f64>) -> impl Iterator<Item = usize> {
         let (start, end) = (depths.start, depths.end);
@@ -164,7 +171,7 @@ pub(super) trait Bonded<const D: usize>: Debug + Clone {
         let may = self.softening().is_some() || near.contains(&began);
         let places = if may { 0..self.row_places() } else { 0..0 };
         places.filter(move |&place| {
-            let depth = self.position(row, place)[D - 1];
+            let depth = self.depth(row, place);
             depth > start && depth < end && self.mass_of(row, place) > 0.0
         })
     }

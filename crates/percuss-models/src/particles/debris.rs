@@ -1,13 +1,14 @@
 //! Contact of particles that no whole bond holds: pieces of a body that meet, and both sides of a crack that closes.
 
-use std::collections::{BTreeMap, BTreeSet};
-
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::bonded::{At, Bonded, Load, dot, norm, way};
 
 /// Distance beyond contact at which a pair is watched, in spacings; half of it is how far particles go between two searches.
 const WATCHED: f64 = 0.2;
+/// Pairs that one task takes at least.
+const AT_ONCE: usize = 1024;
 /// Halvings of the search for the damping of a restitution.
 const HALVINGS: usize = 60;
 
@@ -72,6 +73,10 @@ struct Pair {
     drag: f64,
     /// Elongation of the spring across that line [m].
     slide: f64,
+    /// Distance at which the two touch [m].
+    reach: f64,
+    /// Stiffness along the line of centres [N/m per m].
+    stiffness: f64,
 }
 
 /// All pairs of a body, and what they have lost.
@@ -79,7 +84,7 @@ struct Pair {
 #[serde(bound = "")]
 pub(super) struct Debris<const D: usize> {
     pairs: Vec<Pair>,
-    /// Positions at the last search of the particles that have neighbours without a whole bond [m].
+    /// Displacements at the last search of the particles that have neighbours without a whole bond [m].
     #[serde(with = "places")]
     searched: Vec<(At, [f64; D])>,
     /// Energy lost to damping and friction [J per m].
@@ -91,10 +96,6 @@ struct Meeting<const D: usize> {
     /// From the first to the second.
     normal: [f64; D],
     distance: f64,
-    /// Distance at which they touch [m].
-    reach: f64,
-    /// Stiffness along the normal [N/m per m].
-    stiffness: f64,
 }
 
 impl<const D: usize> Debris<D> {
@@ -125,7 +126,7 @@ impl<const D: usize> Debris<D> {
     pub(super) fn has_moved(&self, body: &impl Bonded<D>) -> bool {
         let far = 0.5 * WATCHED * body.spacing();
         self.searched.iter().any(|&((row, place), then)| {
-            let gone = way(then, body.position(row, place));
+            let gone = way(then, body.displacement(row, place));
             dot(gone, gone) > far * far
         })
     }
@@ -135,10 +136,10 @@ impl<const D: usize> Debris<D> {
         self.searched = body
             .particles()
             .filter(|&(row, place)| !body.is_held_all_round(row, place))
-            .map(|(row, place)| ((row, place), body.position(row, place)))
+            .map(|(row, place)| ((row, place), body.displacement(row, place)))
             .collect();
-        let mut found = self.broken_bonds(body);
-        self.add_near(body, (1.0 + WATCHED) * law.diameter, &mut found);
+        let mut found = self.broken_bonds(body, WATCHED * law.diameter);
+        self.add_near(body, law, &mut found);
         found.sort_unstable_by_key(|pair| pair.ends);
         for pair in &mut found {
             if let Ok(old) = self.pairs.binary_search_by_key(&pair.ends, |old| old.ends) {
@@ -156,14 +157,19 @@ impl<const D: usize> Debris<D> {
         self.pairs = found;
     }
 
-    /// Pairs that a bond held.
-    fn broken_bonds<B: Bonded<D>>(&self, body: &B) -> Vec<Pair> {
+    /// Pairs that a bond held, and that are not farther beyond its length than a distance [m].
+    fn broken_bonds<B: Bonded<D>>(&self, body: &B, beyond: f64) -> Vec<Pair> {
         let mut found = Vec::new();
         for &((row, place), _) in &self.searched {
             for kind in 0..B::KINDS {
                 let bond = (row, place, kind);
-                if body.weight(bond) > 0.0 && body.is_broken(bond) {
-                    found.push(Pair::new(body.ends(bond), Some(kind)));
+                if body.weight(bond) == 0.0 || !body.is_broken(bond) {
+                    continue;
+                }
+                let [a, b] = (body.ends(bond)).map(|(row, place)| body.position(row, place));
+                let spring = body.spring_of(bond);
+                if norm(way(a, b)) < spring.0 + beyond {
+                    found.push(Pair::new(body.ends(bond), Some(kind), spring));
                 }
             }
         }
@@ -171,24 +177,45 @@ impl<const D: usize> Debris<D> {
     }
 
     /// Pairs that no bond held, by cells of a grid.
-    fn add_near(&self, body: &impl Bonded<D>, reach: f64, found: &mut Vec<Pair>) {
+    fn add_near(&self, body: &impl Bonded<D>, law: &ContactLaw, found: &mut Vec<Pair>) {
+        let reach = (1.0 + WATCHED) * law.diameter;
+        let positions: Vec<[f64; D]> = (self.searched.iter())
+            .map(|&((row, place), _)| body.position(row, place))
+            .collect();
         let cell = |place: [f64; D]| place.map(|part| (part / reach).floor() as i64);
-        let mut cells: BTreeMap<[i64; D], Vec<usize>> = BTreeMap::new();
-        for (index, &(_, position)) in self.searched.iter().enumerate() {
-            cells.entry(cell(position)).or_default().push(index);
-        }
-        for (index, &(end, position)) in self.searched.iter().enumerate() {
-            let bonded = bonded_to(body, end);
-            let own = cell(position);
-            for near in 0..3_usize.pow(D as u32) {
-                let off = |axis: usize| (near / 3_usize.pow(axis as u32) % 3) as i64 - 1;
-                let near: [i64; D] = std::array::from_fn(|axis| own[axis] + off(axis));
-                for &other in cells.get(&near).map_or(&[][..], Vec::as_slice) {
-                    let (other_end, at) = self.searched[other];
-                    let between = way(position, at);
-                    let is_near = dot(between, between) < reach * reach;
-                    if other > index && is_near && !bonded.contains(&other_end) {
-                        found.push(Pair::new([end, other_end], None));
+        let mut cells: Vec<([i64; D], usize)> = (positions.iter().enumerate())
+            .map(|(index, &position)| (cell(position), index))
+            .collect();
+        cells.sort_unstable();
+        let mut bonded = Vec::new();
+        for (index, &(end, _)) in self.searched.iter().enumerate() {
+            let own = cell(positions[index]);
+            bonded.clear();
+            // Cells that differ in their last number alone stand one behind the other.
+            for column in 0..3_usize.pow(D as u32 - 1) {
+                let mut first = own;
+                for (axis, number) in first.iter_mut().enumerate() {
+                    let off = column / 3_usize.pow(axis as u32) % 3;
+                    *number += if axis + 1 < D { off as i64 - 1 } else { -1 };
+                }
+                let mut last = first;
+                last[D - 1] += 2;
+                let start = cells.partition_point(|(cell, _)| *cell < first);
+                for &(_, other) in cells[start..].iter().take_while(|(cell, _)| *cell <= last) {
+                    let between = way(positions[index], positions[other]);
+                    if other <= index || dot(between, between) >= reach * reach {
+                        continue;
+                    }
+                    if bonded.is_empty() {
+                        add_bonded(body, end, &mut bonded);
+                    }
+                    let other_end = self.searched[other].0;
+                    if !bonded.contains(&other_end) {
+                        found.push(Pair::new(
+                            [end, other_end],
+                            None,
+                            (law.diameter, law.stiffness),
+                        ));
                     }
                 }
             }
@@ -197,8 +224,12 @@ impl<const D: usize> Debris<D> {
 
     /// Forces of all pairs at the positions and velocities after a step [s].
     pub(super) fn update(&mut self, body: &impl Bonded<D>, law: &ContactLaw, step: f64) {
-        for pair in &mut self.pairs {
-            self.lost += pair.update(body, law, step);
+        let lost: Vec<f64> = (self.pairs.par_iter_mut())
+            .with_min_len(AT_ONCE)
+            .map(|pair| pair.update(body, law, step))
+            .collect();
+        for lost in lost {
+            self.lost += lost;
         }
     }
 
@@ -210,14 +241,14 @@ impl<const D: usize> Debris<D> {
             .iter()
             .filter(|pair| pair.push > 0.0 || pair.drag != 0.0)
         {
-            let meeting = pair.meeting(body, law);
+            let meeting = pair.meeting(body);
             // The spring of a broken bond pushes by itself.
             let along = if pair.bond.is_some() {
                 pair.drag
             } else {
                 pair.push
             };
-            let across = -law.across * meeting.stiffness * pair.slide;
+            let across = -law.across * pair.stiffness * pair.slide;
             let (normal, side) = (meeting.normal, sideways(meeting.normal));
             let force: [f64; D] =
                 std::array::from_fn(|axis| along * normal[axis] + across * side[axis]);
@@ -237,44 +268,39 @@ impl<const D: usize> Debris<D> {
     /// Energy of the springs of all pairs [J per m], without that of bonds.
     pub(super) fn energy(&self, body: &impl Bonded<D>, law: &ContactLaw) -> f64 {
         let of = |pair: &Pair| {
-            let meeting = pair.meeting(body, law);
-            let depth = (meeting.reach - meeting.distance).max(0.0);
+            let meeting = pair.meeting(body);
+            let depth = (pair.reach - meeting.distance).max(0.0);
             let along = if pair.bond.is_some() {
                 0.0
             } else {
                 depth * depth
             };
-            0.5 * meeting.stiffness * (along + law.across * pair.slide * pair.slide)
+            0.5 * pair.stiffness * (along + law.across * pair.slide * pair.slide)
         };
         self.pairs.iter().map(of).sum()
     }
 }
 
 impl Pair {
-    fn new(ends: [At; 2], bond: Option<usize>) -> Self {
+    fn new(ends: [At; 2], bond: Option<usize>, (reach, stiffness): (f64, f64)) -> Self {
         Self {
             ends,
             bond,
             push: 0.0,
             drag: 0.0,
             slide: 0.0,
+            reach,
+            stiffness,
         }
     }
 
-    fn meeting<const D: usize>(&self, body: &impl Bonded<D>, law: &ContactLaw) -> Meeting<D> {
+    fn meeting<const D: usize>(&self, body: &impl Bonded<D>) -> Meeting<D> {
         let [a, b] = self.ends.map(|(row, place)| body.position(row, place));
         let between = way(a, b);
         let distance = norm(between).max(f64::MIN_POSITIVE);
-        let (row, place) = self.ends[0];
-        let (reach, stiffness) = match self.bond {
-            None => (law.diameter, law.stiffness),
-            Some(kind) => body.spring_of((row, place, kind)),
-        };
         Meeting {
             normal: between.map(|part| part / distance),
             distance,
-            reach,
-            stiffness,
         }
     }
 
@@ -285,19 +311,19 @@ impl Pair {
         law: &ContactLaw,
         step: f64,
     ) -> f64 {
-        let meeting = self.meeting(body, law);
-        let depth = meeting.reach - meeting.distance;
+        let meeting = self.meeting(body);
+        let depth = self.reach - meeting.distance;
         let (drag, slide) = (self.drag, self.slide);
         if depth <= 0.0 && drag == 0.0 && slide == 0.0 {
             self.push = 0.0;
             return 0.0;
         }
         let [apart, past] = self.speeds(body, &meeting);
-        let spring = law.across * meeting.stiffness;
+        let spring = law.across * self.stiffness;
         let trial = slide + past * step;
         if depth > 0.0 {
-            let elastic = meeting.stiffness * depth;
-            let damping = 2.0 * law.damping * (meeting.stiffness * self.mass(body)).sqrt();
+            let elastic = self.stiffness * depth;
+            let damping = 2.0 * law.damping * (self.stiffness * self.mass(body)).sqrt();
             self.push = (elastic - damping * apart).max(0.0);
             self.drag = self.push - elastic;
             let most = law.friction * self.push / spring;
@@ -338,15 +364,14 @@ fn sideways<const D: usize>(normal: [f64; D]) -> [f64; D] {
     side
 }
 
-/// Particles that a particle has, or had, a bond with.
-fn bonded_to<const D: usize>(body: &impl Bonded<D>, end: At) -> BTreeSet<At> {
-    let mut others = BTreeSet::new();
+/// Adds the particles that a particle has, or had, a bond with, and itself.
+fn add_bonded<const D: usize>(body: &impl Bonded<D>, end: At, others: &mut Vec<At>) {
+    others.push(end);
     for bond in body.bonds_of(end.0, end.1) {
         if body.weight(bond) > 0.0 {
             others.extend(body.ends(bond).into_iter().filter(|other| *other != end));
         }
     }
-    others
 }
 
 /// Places of particles in a checkpoint: arrays of any length are no part of the format.

@@ -5,6 +5,7 @@ use std::{collections::BTreeMap, fmt::Write as _};
 use super::{body::Body, bonded::Bonded, run::Impact, setup, shape::Rigid};
 use crate::{
     Error, Refusal, Scenario,
+    options::Space,
     problem::Nose,
     solver::{Control, applicability, interface::Solver},
 };
@@ -56,6 +57,10 @@ fn not_exported(scenario: &Scenario) -> Option<Refusal> {
         let reason = "LAMMPS has no bonds that soften: its bonds break at once, under pressure, too, and the answer would be another one";
         let remedy = "give `particles.fracture = false` for a body that does not break, and remove `particles.notches`";
         return Some(Refusal::new(reason).with_remedy(remedy));
+    }
+    if scenario.options.particles.space() == Space::ThreeDimensional {
+        let reason = "the input for LAMMPS has plane bodies alone: LAMMPS has no stiffness of a particle's volume like that of the model";
+        return Some(Refusal::new(reason).with_remedy("give another `particles.space`"));
     }
     if scenario.obliquity != 0.0 {
         let reason = "the input for LAMMPS has normal impact alone";

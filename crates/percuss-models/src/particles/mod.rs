@@ -1,4 +1,4 @@
-//! Model `particles`: two-dimensional solids as lattices of bonded particles.
+//! Model `particles`: solids as lattices of bonded particles, in a plane or in space.
 
 mod body;
 mod bonded;
@@ -42,12 +42,17 @@ use crate::{
     validity::{NoseKind, ValidityDomain},
 };
 
+/// Memory of a particle in space, twice as much where bonds break, and its rate.
+const WORK_IN_SPACE: WorkRate = WorkRate {
+    bytes: 900.0,
+    rate: 5e6,
+};
 /// Memory of a particle with the fields that show it [bytes], twice as much where particles are moved, and particles times steps per second of processor time.
 const WORK: WorkRate = WorkRate {
     bytes: 560.0,
     rate: 20e6,
 };
-/// Two-dimensional lattice of bonded particles.
+/// Lattice of bonded particles.
 #[derive(Debug, Clone, Copy)]
 pub struct Particles;
 
@@ -79,7 +84,7 @@ impl Model for Particles {
     }
 
     fn summary(&self) -> &'static str {
-        "2-D bonded particles: elastic waves, cracks and rigid impact on brittle plates, per metre of width"
+        "2-D and 3-D bonded particles: elastic waves, cracks and rigid impact on brittle plates"
     }
 
     fn validity(&self) -> &'static ValidityDomain {
@@ -95,10 +100,10 @@ impl Model for Particles {
                 predicts: &[BandQuantity::ResidualVelocity],
                 oblique_noses: NoseKind::ALL,
                 notes: &[
-                    "plane strain or plane stress: the projectile is a strip, and results are per metre of width",
-                    "a rigid projectile on one elastic plate, or an elastic strip on a rigid wall; bonds break where the material has \
+                    "`space`: plane strain or plane stress, where the projectile is a strip and results are per metre of width, or three dimensions",
+                    "a rigid projectile on one elastic plate, or an elastic strip or rod on a rigid wall; bonds break where the material has \
                      `fracture`, and pieces meet with friction; no plastic flow, and no friction of the projectile",
-                    "Poisson's ratio of the lattice up to 1/4 in plane strain and 1/3 in plane stress",
+                    "Poisson's ratio of the lattice up to 1/4 in plane strain, 1/3 in plane stress and 0.4 in three dimensions",
                     "never a first choice: for what is axisymmetric use `axi`",
                 ],
                 ..ValidityDomain::OPEN
@@ -120,7 +125,11 @@ impl Model for Particles {
 
     fn estimate(&self, scenario: &Scenario) -> Estimate {
         let (time_step, end, limits) = setup::expected(scenario);
-        let mut work = WORK.of(particles(scenario));
+        let work = match scenario.options.particles.space() {
+            Space::ThreeDimensional => WORK_IN_SPACE,
+            Space::PlaneStrain | Space::PlaneStress => WORK,
+        };
+        let mut work = work.of(particles(scenario));
         if has_seeds(scenario) {
             work.bytes *= 2.0;
         }

@@ -107,6 +107,11 @@ impl Bonded<2> for Body {
         [x + state.x[place], z + state.z[place]]
     }
 
+    fn displacement(&self, row: usize, place: usize) -> [f64; 2] {
+        let state = &self.state[row];
+        [state.x[place], state.z[place]]
+    }
+
     fn velocity(&self, row: usize, place: usize) -> [f64; 2] {
         let motion = &self.motion[row];
         [motion.x[place], motion.z[place]]

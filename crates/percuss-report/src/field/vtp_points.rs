@@ -75,7 +75,7 @@ pub(crate) fn decode(file: &[u8], array: &str, components: usize) -> Option<Poin
     // A plane body, which stands on both sides of the axis, has its area for a volume.
     let is_plane = places.iter().any(|[across, _]| *across < 0.0);
     let size = |([radius, _], volume): (&[f32; 2], &f32)| match (section, is_plane) {
-        (Some(section), _) => (volume / section).sqrt(),
+        (Some(_), _) => volume.cbrt(),
         (None, true) => volume.sqrt(),
         (None, false) => (volume / (2.0 * std::f32::consts::PI * radius)).sqrt(),
     };

@@ -174,6 +174,10 @@ result_record! {
         crack_length_mm: Option<f64>
             = number("length of the cracks", Unit::MM, Result), |_, run| run?.cracks?.length;
 
+        /// Area of a plane crack that takes as many bonds as are broken, of a body in space.
+        crack_area_mm2: Option<f64>
+            = number("area of the cracks", Unit::MM2, Result), |_, run| run?.cracks?.area;
+
         /// Mean speed of the farthest crack tip from a tenth to nine tenths of its way.
         crack_speed_m_s: Option<f64>
             = number("speed of the crack tip", Unit::M_S, Result), |_, run| run?.cracks?.tip_speed;

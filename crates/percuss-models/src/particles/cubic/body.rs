@@ -16,6 +16,8 @@ pub(in super::super) struct CubicBody {
     /// Position of the first particle of an even layer [m].
     pub(super) origin: [f64; 3],
     pub(super) grid: Grid,
+    /// Column and row of every place.
+    columns_and_rows: Vec<[f64; 2]>,
     pub(in super::super) layers: Vec<Layer>,
     pub(in super::super) state: Vec<Vector>,
     pub(in super::super) motion: Vec<Vector>,
@@ -33,7 +35,7 @@ pub(in super::super) struct CubicBody {
     /// Volume of all tetrahedra [m3].
     pub(in super::super) volume: f64,
     /// How bonds fail, if they do: to nearest neighbours, and to second ones.
-    pub(super) softening: Option<[Softening; 2]>,
+    pub(in super::super) softening: Option<[Softening; 2]>,
 }
 
 /// Shape of the layers of a body. Every one has a place without a particle on all its sides.
@@ -56,7 +58,7 @@ pub(in super::super) struct Layer {
     pub(super) mass: Vec<f64>,
     pub(super) inverse_mass: Vec<f64>,
     /// Weights of the bonds that start in the layer: the part of their tetrahedra that is there, by volume.
-    pub(super) weights: [Vec<f64>; KINDS],
+    pub(in super::super) weights: [Vec<f64>; KINDS],
     /// Pull of a bond per sum of weighted elongations [N/m2 per m2]: stiffness of the volume of each particle.
     pub(super) swell: Vec<f64>,
     /// Lengths of the bonds at rest [m], where particles are moved; otherwise empty.
@@ -182,6 +184,9 @@ impl CubicBody {
             lattice,
             origin: [half(grid.columns), half(grid.rows), depth],
             grid,
+            columns_and_rows: (0..places)
+                .map(|place| grid.column_and_row(place))
+                .collect(),
             layers: Vec::new(),
             state: Vec::new(),
             motion: Vec::new(),
@@ -413,7 +418,7 @@ impl CubicBody {
 
     /// Position of a particle before the impact [m].
     pub(super) fn rest_place(&self, layer: usize, place: usize) -> [f64; 3] {
-        let [column, row] = self.grid.column_and_row(place);
+        let [column, row] = self.columns_and_rows[place];
         let odd = 0.5 * (layer % 2) as f64;
         let side = self.lattice.side;
         let on_lattice = [
@@ -428,6 +433,11 @@ impl CubicBody {
             }
             false => on_lattice,
         }
+    }
+
+    /// Width across the direction of impact [m].
+    pub(in super::super) fn width(&self) -> f64 {
+        (self.grid.columns as f64 - 1.0) * self.lattice.side
     }
 
     /// Lets bonds fail.

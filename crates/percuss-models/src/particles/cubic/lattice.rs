@@ -67,6 +67,12 @@ impl Cubic {
         }
     }
 
+    /// Stiffness of the springs to nearest neighbours [N/m].
+    #[cfg(test)]
+    pub(in super::super) fn normal(&self) -> f64 {
+        self.normal
+    }
+
     /// Side of the cube [m].
     pub(in super::super) fn side(&self) -> f64 {
         self.side

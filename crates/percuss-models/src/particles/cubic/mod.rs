@@ -10,6 +10,9 @@ pub(super) mod setup;
 mod step;
 mod toughness;
 
-#[cfg(test)]
-pub(super) use self::body::Grid;
 pub(super) use self::{body::CubicBody, lattice::Cubic, setup::LAYER};
+#[cfg(test)]
+pub(super) use self::{
+    body::Grid,
+    toughness::{CUT, lattice_factor, softening},
+};

@@ -110,6 +110,21 @@ impl Bonded<3> for CubicBody {
         self.now(layer, place)
     }
 
+    fn displacement(&self, layer: usize, place: usize) -> [f64; 3] {
+        self.state[layer].each_ref().map(|part| part[place])
+    }
+
+    /// Without its other coordinates.
+    fn depth(&self, layer: usize, place: usize) -> f64 {
+        let moved = if self.is_moved() {
+            self.layers[layer].shift[2][place]
+        } else {
+            0.0
+        };
+        let start = self.origin[2] + 0.5 * layer as f64 * self.lattice.side();
+        start + moved + self.state[layer][2][place]
+    }
+
     fn velocity(&self, layer: usize, place: usize) -> [f64; 3] {
         self.motion[layer].each_ref().map(|part| part[place])
     }
@@ -222,7 +237,6 @@ impl Bonded<3> for CubicBody {
 
     fn on_axis(&self, layer: usize, part: usize) -> ElementState {
         let place = self.axis_place(layer);
-        let width = (self.grid.columns as f64 - 1.0) * self.lattice.side();
         ElementState {
             part,
             initial_position: self.rest_place(layer, place)[2],
@@ -231,7 +245,7 @@ impl Bonded<3> for CubicBody {
             stress: -self.stress(layer, place)[2],
             strain: -fields::axial_strain(self, layer),
             plastic_strain: 0.0,
-            diameter: width,
+            diameter: self.width(),
             temperature: f64::NAN,
             velocity: self.motion[layer][2][place],
         }
@@ -265,9 +279,9 @@ impl Bonded<3> for CubicBody {
         fields::round(run)
     }
 
-    /// A cube: it has two layers of particles.
+    /// Three layers of particles: one that moved ones leave open is closed by another.
     fn section(&self) -> f64 {
-        self.lattice.side()
+        1.5 * self.lattice.side()
     }
 
     fn details(&self, scenario: &Scenario, inertia: &Inertia) -> Vec<Detail> {
@@ -277,10 +291,9 @@ impl Bonded<3> for CubicBody {
             true => extent.width * extent.width,
             false => std::f64::consts::FRAC_PI_4 * extent.width * extent.width,
         };
-        let width = (self.grid.columns as f64 - 1.0) * self.lattice.side();
         vec![
             detail("mass of the projectile", "kg", inertia.mass),
-            detail("width of the lattice", "mm", width * 1e3),
+            detail("width of the lattice", "mm", self.width() * 1e3),
             detail(
                 "volume of the lattice over that of the body",
                 "",

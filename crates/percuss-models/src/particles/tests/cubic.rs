@@ -1,13 +1,14 @@
 //! Exact tests of bodies in space.
 
-use super::solid;
+use super::{contact::scenario, solid};
 use crate::{
     particles::{
         bonded::Bonded,
-        cubic::{Cubic, CubicBody, Grid},
+        cubic::{CUT, Cubic, CubicBody, Grid, lattice_factor, softening},
         packing::Moved,
+        run::Impact,
     },
-    solver::Control,
+    solver::{Control, interface::Solver},
 };
 
 const SPACING: f64 = 1e-3;
@@ -191,6 +192,150 @@ fn threads_change_no_bit() {
     }
 }
 
+/// A run of a case in space.
+fn impact<'a>(case: &'a crate::Scenario, courant: f64) -> Impact<'a, CubicBody, 3> {
+    Impact::build(case, courant, &mut Control::default()).unwrap()
+}
+
+/// Holds the sides of a body everywhere: it is strained along the normal alone.
+fn hold_sides(body: &mut CubicBody) {
+    let particles = body.particles();
+    body.held = particles
+        .flat_map(|(layer, place)| [0, 1].map(|axis| (layer, place, axis)))
+        .collect();
+}
+
+/// A rigid body on a plate between smooth walls slows as `v = v₀ exp(−ρ c A t/m)` until the wave comes back.
+#[test]
+fn a_wide_punch_slows_as_the_wave_lets_it() {
+    let rod = "length = '4 mm', diameter = '12 mm', impact_velocity = '2 m/s'";
+    let plate = "material = 'own', thickness = '24 mm', back_face = 'free'";
+    let options = "space = '3d', spacing = '0.5 mm', width = '6 mm'";
+    let case = scenario(rod, plate, options, 0.22);
+    let mut run = impact(&case, 0.5);
+    hold_sides(&mut run.body);
+    let impedance = 2500.0 * run.body.wave_speed() * run.body.width().powi(2);
+    let time = 1.5 * 24e-3 / run.body.wave_speed();
+    while run.state.time < time {
+        run.advance().unwrap();
+    }
+    let exact = (-impedance * run.state.time / run.inertia.mass).exp();
+    let found = run.state.flight.velocity[1] / 2.0;
+    assert!(
+        exact < 0.9 && (found - exact).abs() < 0.01 * (1.0 - exact),
+        "{found} {exact}"
+    );
+}
+
+/// A bar between smooth walls leaves a rigid wall after `2 L/c` with its speed; at the wall the stress is `ρ c v`.
+#[test]
+fn a_bar_leaves_a_wall() {
+    let rod = "length = '20 mm', diameter = '5 mm', impact_velocity = '5 m/s'";
+    let case = scenario(
+        rod,
+        "rigid_wall = true",
+        "space = '3d', spacing = '0.5 mm'",
+        0.22,
+    );
+    let mut run = impact(&case, 0.5);
+    hold_sides(&mut run.body);
+    let (mass, speed) = (run.body.mass(), run.body.wave_speed());
+    let passage = 2.0 * 20e-3 / speed;
+    let area = mass / (2500.0 * 20e-3);
+    // Behind the first particles of the front.
+    let mut until = |part: f64| {
+        while run.state.time < part * passage {
+            run.advance().unwrap();
+        }
+        [run.state.time, run.body.momentum()]
+    };
+    let ([start, before], [end, after]) = (until(0.2), until(0.8));
+    let stress = (before - after) / (end - start) / area;
+    assert!(
+        (stress / (2500.0 * speed * 5.0) - 1.0).abs() < 0.015,
+        "{stress}"
+    );
+    while run.contact_force() > 0.0 {
+        run.advance().unwrap();
+    }
+    assert!(
+        (run.state.time / passage - 1.0).abs() < 0.03,
+        "{}",
+        run.state.time / passage
+    );
+    assert!((run.body.momentum() / (mass * 5.0) + 1.0).abs() < 0.03);
+}
+
+/// A ball at an angle: linear momentum in the plane, and energy.
+#[test]
+fn momenta_and_energy_of_an_oblique_impact() {
+    let rod = "length = '6 mm', diameter = '6 mm', impact_velocity = '5 m/s', nose = 'hemisphere', obliquity = '35 deg'";
+    let plate = "material = 'own', thickness = '4 mm', back_face = 'free'";
+    let case = scenario(
+        rod,
+        plate,
+        "space = '3d', spacing = '0.6 mm', width = '20 mm'",
+        0.2,
+    );
+    let mut run = impact(&case, 0.3);
+    let sum = |run: &Impact<'_, CubicBody, 3>| {
+        let body = &run.body;
+        let mut sum = run
+            .state
+            .flight
+            .velocity
+            .map(|part| part * run.inertia.mass);
+        for (layer, place) in body.particles() {
+            let (mass, v) = (body.mass_of(layer, place), body.velocity(layer, place));
+            sum = [sum[0] + mass * v[0], sum[1] + mass * v[2]];
+        }
+        sum
+    };
+    let (start, energy) = (sum(&run), run.energy().total());
+    for _ in 0..1500 {
+        run.advance().unwrap();
+    }
+    let end = sum(&run);
+    assert!(run.body.momentum() > 0.05 * start[1]);
+    for axis in 0..2 {
+        assert!(((end[axis] - start[axis]) / start[1]).abs() < 1e-12);
+    }
+    let change = run.energy().total() / energy - 1.0;
+    assert!(change.abs() < 1e-3, "{change:e}");
+}
+
+/// Mass, centre and moment of inertia of a ball's half and of a cylinder.
+#[test]
+fn bodies_of_revolution_have_their_moments() {
+    use crate::{particles::shape::Shape, problem::Nose};
+    let (radius, length) = (2.0, 5.0);
+    let of = |nose| {
+        Shape {
+            nose,
+            radius,
+            length,
+        }
+        .round_moments()
+    };
+    let pi = std::f64::consts::PI;
+    let (volume, centre, second) = of(Nose::Flat);
+    let exact = pi * radius * radius * length;
+    assert!((volume / exact - 1.0).abs() < 1e-9 && (centre / 2.5 - 1.0).abs() < 1e-9);
+    let exact_second = exact * (radius * radius / 4.0 + length * length / 12.0);
+    assert!((second / exact_second - 1.0).abs() < 1e-9);
+    let round = Shape {
+        nose: Nose::Hemisphere,
+        radius,
+        length: radius,
+    };
+    let (volume, centre, second) = round.round_moments();
+    let exact = 2.0 / 3.0 * pi * radius.powi(3);
+    assert!((volume / exact - 1.0).abs() < 1e-9);
+    assert!((centre / (5.0 / 8.0 * radius) - 1.0).abs() < 1e-9);
+    let exact_second = exact * radius * radius * (0.4 - 9.0 / 64.0);
+    assert!((second / exact_second - 1.0).abs() < 1e-9);
+}
+
 #[test]
 #[ignore = "a measurement"]
 fn particle_steps_in_a_second_in_space() {
@@ -249,16 +394,18 @@ fn a_bar_has_the_modulus_of_the_solid() {
     for ratio in [0.1, 0.22, 0.35] {
         for width in [3, 6, 12] {
             let found = modulus(ratio, width, None);
-            println!("{ratio} {width}: {found}");
+            // A face stands for springs across it that are not there.
+            let allowed = if width < 6 { 0.02 } else { 0.01 };
+            assert!((found - 1.0).abs() < allowed, "{ratio} {width}: {found}");
         }
     }
     for seed in 1..=3 {
         let found = modulus(0.22, 6, moved(0.3, seed));
-        println!("irregular {seed}: {found}");
+        assert!((found - 1.0).abs() < 0.025, "irregular {seed}: {found}");
     }
 }
 
-/// Young's modulus, and C11, C12, C44 of the inside of large irregular packings, over those of the solid.
+/// C11, C12 and C44 of the inside of irregular packings, as the mean over three seeds.
 #[test]
 fn an_irregular_packing_has_the_constants() {
     for ratio in [0.1, 0.22, 0.35] {
@@ -273,7 +420,9 @@ fn an_irregular_packing_has_the_constants() {
             }
             let exact = [first + 2.0 * second, first, second];
             let errors = [0, 1, 2].map(|i| mean[i] / exact[i] - 1.0);
-            println!("{ratio} {amplitude}: {errors:.4?}");
+            for (error, allowed) in errors.into_iter().zip([0.01, 0.025, 0.01]) {
+                assert!(error.abs() < allowed, "{ratio} {amplitude}: {errors:.4?}");
+            }
         }
     }
 }
@@ -327,4 +476,113 @@ fn constants(ratio: f64, moved: Option<Moved>) -> [f64; 3] {
     };
     let (along, shear) = (stress([strain, 0.0]), stress([0.0, strain]));
     [along[2], 0.5 * (along[0] + along[1]), shear[3]]
+}
+
+/// Clamped plate with a slit, in plane strain: energy per area at which the slit runs, over the fracture energy.
+fn factor_of_start(moved: Option<Moved>, cells: [usize; 3], end: f64) -> f64 {
+    let ratio = 0.22;
+    let mut start = block(ratio, cells, moved);
+    let side = start.lattice.side();
+    let first = 1e-3;
+    let modulus = 70e9;
+    // Energy that belongs to the strain of the first softening.
+    let energy = first * first * CUT * start.lattice.normal() * end;
+    let factor = lattice_factor(moved.is_some(), end);
+    start.soften(softening(
+        &start.lattice,
+        modulus,
+        energy * factor,
+        end,
+        moved.is_some(),
+    ));
+    let last = start.row_count() - 1;
+    let far = 0.5 * cells[1] as f64 * side - 0.1 * side;
+    let mut held: Vec<(usize, usize, usize)> = Vec::new();
+    for (layer, place) in start.particles() {
+        let axes: &[usize] = match layer {
+            0 => &[0, 1, 2],
+            layer if layer == last => &[0, 1, 2],
+            _ if start.reference(layer, place)[1].abs() > far => &[1],
+            _ => &[],
+        };
+        held.extend(axes.iter().map(|axis| (layer, place, *axis)));
+    }
+    start.held = held;
+    slit(&mut start, 0.5 * cells[2] as f64 * side + 0.25 * side);
+    let step = 0.4 * 2.0 / start.frequency(&mut Control::default()).unwrap();
+    let (lambda, mu) = solid(ratio).constants();
+    let height = cells[2] as f64 * side;
+    let strain_of = |factor: f64| (2.0 * factor * energy / ((lambda + 2.0 * mu) * height)).sqrt();
+    let (mut low, mut high) = (0.3, 8.0);
+    while high / low > 1.02 {
+        let factor = f64::sqrt(low * high);
+        match runs(&start, strain_of(factor), step, cells[1]) {
+            true => high = factor,
+            false => low = factor,
+        }
+    }
+    f64::sqrt(low * high)
+}
+
+/// Takes the bonds across a depth in the left third.
+fn slit(body: &mut CubicBody, depth: f64) {
+    let tip = -body.width() / 6.0;
+    let bonds: Vec<_> = body.bonds().collect();
+    for bond in bonds {
+        let [a, b] = (body.ends(bond)).map(|(layer, place)| body.reference(layer, place));
+        if (a[2] - depth) * (b[2] - depth) < 0.0 && 0.5 * (a[0] + b[0]) < tip {
+            let (layer, place, kind) = bond;
+            body.layers[layer].weights[kind][place] = 0.0;
+        }
+    }
+}
+
+/// Whether the slit runs in a plate that is strained slowly to a strain.
+fn runs(start: &CubicBody, strain: f64, step: f64, width: usize) -> bool {
+    let mut body = start.clone();
+    let softening = body.softening.take();
+    displace(&mut body, |[_, _, z]| [0.0, 0.0, strain * z]);
+    let damped = |body: &mut CubicBody, keep: f64| {
+        for speed in body.motion.iter_mut().flatten().flatten() {
+            *speed *= keep;
+        }
+    };
+    for _ in 0..300 {
+        body.advance(step, &[]);
+        damped(&mut body, 0.97);
+    }
+    body.softening = softening;
+    for number in 0..1500 {
+        body.advance(step, &[]);
+        damped(&mut body, 0.995);
+        if number % 50 == 49 && body.broken_bonds() > 40 * width {
+            return true;
+        }
+    }
+    false
+}
+
+/// The table of lattice factors, as the mean over three seeds.
+#[test]
+fn cracks_take_the_energy_of_the_table() {
+    let found: Vec<f64> = (1..=3)
+        .map(|seed| factor_of_start(moved(0.3, seed), [36, 3, 16], 3.0))
+        .collect();
+    let mean = found.iter().sum::<f64>() / found.len() as f64;
+    println!("irregular: {found:.3?}");
+    let expected = lattice_factor(true, 3.0);
+    assert!((mean / expected - 1.0).abs() < 0.05, "{mean} {expected}");
+}
+
+/// The other numbers of the table, and how they depend on the size of the plate.
+#[test]
+#[ignore = "a measurement of minutes"]
+fn the_table_of_lattice_factors() {
+    for cells in [[36, 3, 16], [54, 3, 24]] {
+        for end in [1.05, 3.0, 10.0] {
+            let regular = factor_of_start(None, cells, end);
+            let irregular = [1, 2, 3].map(|seed| factor_of_start(moved(0.3, seed), cells, end));
+            println!("{cells:?} {end}: regular {regular:.2}, irregular {irregular:.2?}");
+        }
+    }
 }
