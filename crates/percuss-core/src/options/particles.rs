@@ -273,12 +273,12 @@ impl ParticlesOptions {
     /// Reports keys that bodies in space do not have, or those of a plane.
     fn check_space(&self, check: &mut Check<'_>) {
         let in_space = self.space() == Space::ThreeDimensional;
-        let (other, own) = match in_space {
-            true => (PackingKind::Hexagonal, "body-centred-cubic"),
-            false => (PackingKind::Cubic, "hexagonal"),
+        let (other, name, own) = match in_space {
+            true => (PackingKind::Hexagonal, "hexagonal", "body-centred-cubic"),
+            false => (PackingKind::Cubic, "body-centred-cubic", "hexagonal"),
         };
         if self.packing == Some(other) {
-            let message = format!("no packing in {}", self.space().describe());
+            let message = format!("\"{name}\" is no packing of {}", self.space().describe());
             check.fail(
                 "packing",
                 message,

@@ -85,7 +85,7 @@ struct Pair {
 pub(super) struct Debris<const D: usize> {
     pairs: Vec<Pair>,
     /// Displacements at the last search of the particles that have neighbours without a whole bond [m].
-    #[serde(with = "places")]
+    #[serde(with = "super::places")]
     searched: Vec<(At, [f64; D])>,
     /// Energy lost to damping and friction [J per m].
     pub(super) lost: f64,
@@ -371,33 +371,5 @@ fn add_bonded<const D: usize>(body: &impl Bonded<D>, end: At, others: &mut Vec<A
         if body.weight(bond) > 0.0 {
             others.extend(body.ends(bond).into_iter().filter(|other| *other != end));
         }
-    }
-}
-
-/// Places of particles in a checkpoint: arrays of any length are no part of the format.
-mod places {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    use super::At;
-
-    pub(super) fn serialize<S: Serializer, const D: usize>(
-        places: &[(At, [f64; D])],
-        serializer: S,
-    ) -> Result<S::Ok, S::Error> {
-        let flat: Vec<(At, Vec<f64>)> = places.iter().map(|(at, p)| (*at, p.to_vec())).collect();
-        flat.serialize(serializer)
-    }
-
-    pub(super) fn deserialize<'de, S: Deserializer<'de>, const D: usize>(
-        deserializer: S,
-    ) -> Result<Vec<(At, [f64; D])>, S::Error> {
-        let flat = Vec::<(At, Vec<f64>)>::deserialize(deserializer)?;
-        let of = |(at, place): (At, Vec<f64>)| {
-            let place = place.try_into();
-            place
-                .map(|place| (at, place))
-                .map_err(|_| serde::de::Error::custom("a place of another number of dimensions"))
-        };
-        flat.into_iter().map(of).collect()
     }
 }

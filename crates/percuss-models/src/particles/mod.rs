@@ -15,6 +15,7 @@ mod lattice;
 mod packing;
 mod periodic;
 mod pieces;
+mod places;
 mod plane;
 mod results;
 mod row;

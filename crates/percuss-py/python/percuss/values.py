@@ -43,6 +43,7 @@ class ResultValues:
     peak_force_kn: float | None
     contact_time_us: float | None
     crack_length_mm: float | None
+    crack_area_mm2: float | None
     crack_speed_m_s: float | None
     crack_angle_deg: float | None
     broken_bonds: int | None

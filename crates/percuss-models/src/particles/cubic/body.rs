@@ -2,12 +2,10 @@
 
 use super::{
     super::{fracture::Softening, packing::Moved},
-    lattice::{Cubic, KINDS, VECTORS, relative, sharing},
+    grid::{Grid, halves},
+    lattice::{Cubic, KINDS, relative},
 };
 use crate::{Error, solver::Control};
-
-/// Weight of a bond in a face over that of the half that is inside: it also stands for the springs across the face, of which the outer ends are missing.
-const IN_FACE: f64 = 5.0 / 3.0;
 
 /// A body.
 #[derive(Debug, Clone)]
@@ -36,16 +34,6 @@ pub(in super::super) struct CubicBody {
     pub(in super::super) volume: f64,
     /// How bonds fail, if they do: to nearest neighbours, and to second ones.
     pub(in super::super) softening: Option<[Softening; 2]>,
-}
-
-/// Shape of the layers of a body. Every one has a place without a particle on all its sides.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in super::super) struct Grid {
-    pub(in super::super) layers: usize,
-    /// Particles along a row of an even layer; an odd one has one less.
-    pub(in super::super) columns: usize,
-    /// Rows of an even layer; an odd one has one less.
-    pub(in super::super) rows: usize,
 }
 
 /// A vector at every place of a layer.
@@ -99,66 +87,6 @@ pub(in super::super) struct Change {
     pub(super) elongations: [f64; 2],
     /// Sum of the swelling of its ends before [N/m].
     pub(super) swelling: f64,
-}
-
-impl Grid {
-    /// Places from one row of a layer to the next.
-    pub(super) fn stride(&self) -> usize {
-        self.columns + 2
-    }
-
-    /// Places of a layer.
-    pub(super) fn places(&self) -> usize {
-        (self.rows + 2) * self.stride()
-    }
-
-    /// Place of the second particle of a bond less that of the first, and layers between them.
-    #[inline(always)]
-    pub(super) fn offset(&self, kind: usize, layer: usize) -> (isize, usize) {
-        let (stride, odd) = (self.stride() as isize, (layer % 2) as isize);
-        let on_next = odd * (stride + 1);
-        match kind {
-            0 => (1, 0),
-            1 => (stride, 0),
-            2 => (0, 2),
-            3 => (on_next - stride - 1, 1),
-            4 => (on_next - stride, 1),
-            5 => (on_next - 1, 1),
-            _ => (on_next, 1),
-        }
-    }
-
-    /// Layer and place at half sides from the first particle, if the grid has one there.
-    fn at(&self, [x, y, z]: [i64; 3]) -> Option<(usize, usize)> {
-        let layer = usize::try_from(z).ok().filter(|z| *z < self.layers)?;
-        let odd = (layer % 2) as i64;
-        let less = layer % 2;
-        let along = |half: i64, most: usize| {
-            let number = usize::try_from((half - odd).div_euclid(2)).ok()?;
-            (number < most - less).then_some(number)
-        };
-        let (column, row) = (along(x, self.columns)?, along(y, self.rows)?);
-        Some((layer, (row + 1) * self.stride() + column + 1))
-    }
-
-    /// Column and row of a place.
-    pub(super) fn column_and_row(&self, place: usize) -> [f64; 2] {
-        let stride = self.stride();
-        [place % stride, place / stride].map(|number| number as f64 - 1.0)
-    }
-}
-
-/// The bond between two neighbours, half sides from the first particle: which of them it starts at, and its kind.
-fn bond_between(a: [i64; 3], b: [i64; 3]) -> ([i64; 3], usize) {
-    let way = [0, 1, 2].map(|axis| b[axis] - a[axis]);
-    let found = |way: [i64; 3]| {
-        let is = |vector: &[f64; 3]| vector.map(|part| (2.0 * part) as i64) == way;
-        VECTORS.iter().position(is)
-    };
-    match found(way) {
-        Some(kind) => (a, kind),
-        None => (b, found(way.map(|part| -part)).unwrap_or(0)),
-    }
 }
 
 impl CubicBody {
@@ -250,7 +178,7 @@ impl CubicBody {
     }
 
     /// Lattice place at half sides from the first particle [m].
-    fn place_of(&self, half: [i64; 3]) -> [f64; 3] {
+    pub(super) fn place_of(&self, half: [i64; 3]) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.origin[axis] + 0.5 * self.lattice.side * half[axis] as f64)
     }
 
@@ -269,84 +197,6 @@ impl CubicBody {
             }
         }
         self.layers[layer].shift = shift;
-    }
-
-    /// The six tetrahedra of a particle: two long edges across each other, of which one along an earlier axis starts at it.
-    fn add_tetrahedra(
-        &mut self,
-        start: [i64; 3],
-        at: &impl Fn([i64; 3]) -> Option<(usize, usize)>,
-    ) {
-        for (along, across) in [(0, 1), (0, 2), (1, 2)] {
-            let third = 3 - along - across;
-            for side in [-1, 1] {
-                let (mut end, mut low) = (start, start);
-                end[along] += 2;
-                low[along] += 1;
-                low[across] -= 1;
-                low[third] += side;
-                let mut high = low;
-                high[across] += 2;
-                self.add_tetrahedron([start, end, low, high], at);
-            }
-        }
-    }
-
-    /// A tetrahedron of two opposite edges.
-    fn add_tetrahedron(
-        &mut self,
-        corners: [[i64; 3]; 4],
-        at: &impl Fn([i64; 3]) -> Option<(usize, usize)>,
-    ) {
-        let found = corners.map(at);
-        let missing: Vec<usize> = (0..4).filter(|&i| found[i].is_none()).collect();
-        let mut points = [[0.0; 3]; 4];
-        for i in 0..4 {
-            points[i] = match found[i] {
-                Some((layer, place)) => self.rest_place(layer, place),
-                None => self.place_of(corners[i]),
-            };
-        }
-        // The particle that takes the mass of each corner.
-        let mut owner = [0, 1, 2, 3];
-        match missing[..] {
-            [] => {}
-            [gone] => {
-                let other = gone ^ 1;
-                let lattice = [gone, other].map(|i| self.place_of(corners[i]));
-                points[gone] = [0, 1, 2].map(|axis| 0.5 * (lattice[0][axis] + lattice[1][axis]));
-                owner[gone] = other;
-            }
-            _ => return,
-        }
-        let volume = volume_of(points);
-        self.volume += volume;
-        for i in owner {
-            if let Some((layer, place)) = found[i] {
-                self.layers[layer].mass[place] += 0.25 * self.lattice.density * volume;
-            }
-        }
-        let whole = self.lattice.side.powi(3) / 12.0;
-        for a in 0..4 {
-            for b in a + 1..4 {
-                let (Some(_), Some(_)) = (found[a], found[b]) else {
-                    continue;
-                };
-                let (start, kind) = bond_between(corners[a], corners[b]);
-                let rest: f64 = (0..3).map(|i| (points[b][i] - points[a][i]).powi(2)).sum();
-                let on_lattice: f64 = self.lattice.vector(kind).iter().map(|v| v * v).sum();
-                // The face halves the edge that is in it, not those that end at it.
-                let part = match (missing.is_empty(), kind < 3) {
-                    (true, _) => volume,
-                    (false, true) => IN_FACE * volume,
-                    (false, false) => 2.0 * volume,
-                };
-                if let Some((layer, place)) = self.grid.at(start) {
-                    self.layers[layer].weights[kind][place] +=
-                        part / whole / sharing(kind) * on_lattice / rest;
-                }
-            }
-        }
     }
 
     /// Masses, lengths of bonds and stiffnesses of the volumes of a layer, of weights that are known.
@@ -465,27 +315,4 @@ impl CubicBody {
             }
         }
     }
-}
-
-/// Places of a layer that can have particles, each with its half sides from the first particle.
-fn halves(grid: Grid, layer: usize) -> impl Iterator<Item = ([i64; 3], usize)> {
-    let odd = layer % 2;
-    (0..grid.rows - odd).flat_map(move |row| {
-        (0..grid.columns - odd).map(move |column| {
-            let half = [2 * column + odd, 2 * row + odd, layer].map(|number| number as i64);
-            (half, (row + 1) * grid.stride() + column + 1)
-        })
-    })
-}
-
-/// Volume of a tetrahedron [m3].
-fn volume_of([a, b, c, d]: [[f64; 3]; 4]) -> f64 {
-    let from = |p: [f64; 3]| [0, 1, 2].map(|axis| p[axis] - a[axis]);
-    let [b, c, d] = [from(b), from(c), from(d)];
-    let cross = [
-        c[1] * d[2] - c[2] * d[1],
-        c[2] * d[0] - c[0] * d[2],
-        c[0] * d[1] - c[1] * d[0],
-    ];
-    (b[0] * cross[0] + b[1] * cross[1] + b[2] * cross[2]).abs() / 6.0
 }

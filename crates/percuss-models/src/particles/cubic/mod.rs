@@ -3,16 +3,19 @@
 //! All forces are central, so particles need no rotation.
 
 mod body;
+mod grid;
 mod kernels;
 mod lattice;
 mod run;
 pub(super) mod setup;
 mod step;
+mod stretch;
+mod tetrahedra;
 mod toughness;
 
 pub(super) use self::{body::CubicBody, lattice::Cubic, setup::LAYER};
 #[cfg(test)]
 pub(super) use self::{
-    body::Grid,
+    grid::Grid,
     toughness::{CUT, lattice_factor, softening},
 };

@@ -7,7 +7,8 @@ use super::{
         setup::{self, Softenings, extent, packing, solid, toughness},
         shape::Rigid,
     },
-    body::{CubicBody, Grid},
+    body::CubicBody,
+    grid::Grid,
     lattice::{Cubic, SIDE},
     toughness as bonds,
 };

@@ -7,8 +7,9 @@ use rayon::prelude::*;
 use super::{
     super::{bonded::Load, energy::BodySums},
     body::{Bonds, CubicBody, Vector},
-    kernels::{Common, Move, Next, Pull, Stretch, Sum, Swell, before},
+    kernels::{Common, Move, Next, Pull, Sum, Swell, before},
     lattice::KINDS,
+    stretch::Stretch,
 };
 use crate::{Error, random::unit, solver::Control};
 
