@@ -17,5 +17,6 @@ pub(super) use self::{body::CubicBody, lattice::Cubic, setup::LAYER};
 #[cfg(test)]
 pub(super) use self::{
     grid::Grid,
+    lattice::SIDE,
     toughness::{CUT, lattice_factor, softening},
 };

@@ -4,7 +4,7 @@ use super::{contact::scenario, solid};
 use crate::{
     particles::{
         bonded::Bonded,
-        cubic::{CUT, Cubic, CubicBody, Grid, lattice_factor, softening},
+        cubic::{CUT, Cubic, CubicBody, Grid, SIDE, lattice_factor, softening},
         packing::Moved,
         run::Impact,
     },
@@ -303,6 +303,96 @@ fn momenta_and_energy_of_an_oblique_impact() {
     }
     let change = run.energy().total() / energy - 1.0;
     assert!(change.abs() < 1e-3, "{change:e}");
+}
+
+/// How far the axis of a plate moves more than the plate as a whole [m], at times after a push that is largest there.
+fn bending<B: Bonded<D>, const D: usize>(
+    mut body: B,
+    mut push: impl FnMut(&mut B, (usize, usize), f64),
+) -> Vec<f64> {
+    let half = 10.2e-3;
+    let particles: Vec<_> = body.particles().collect();
+    for &(row, place) in &particles {
+        let across = body.reference(row, place)[0] / half;
+        push(
+            &mut body,
+            (row, place),
+            (0.5 * std::f64::consts::PI * across).cos(),
+        );
+    }
+    let mean = body.momentum() / body.mass();
+    let row = body.row_count() / 2;
+    let place = body.axis_place(row);
+    let (interval, steps) = (2e-6, 100);
+    (0..12)
+        .map(|number| {
+            for _ in 0..steps {
+                body.advance(interval / f64::from(steps), &[]);
+            }
+            let time = interval * f64::from(number + 1);
+            body.displacement(row, place)[D - 1] - mean * time
+        })
+        .collect()
+}
+
+/// A slab between smooth walls swings as a plate in plane strain.
+#[test]
+fn a_slab_is_a_plate_in_plane_strain() {
+    use crate::{
+        options::Space,
+        particles::{
+            body::{Body, Rows},
+            lattice::ROW,
+            packing::Packing,
+        },
+    };
+    let (ratio, width, thickness) = (0.2, 20.4e-3, 6e-3);
+    let rows = 28_u32;
+    let lattice = solid(ratio).lattice(Space::PlaneStrain, thickness / (f64::from(rows) * ROW));
+    let rows = Rows {
+        count: rows as usize + 1,
+        particles: (width / lattice.spacing + 1.5).round() as usize,
+    };
+    let plane = Body::strip(
+        lattice,
+        rows,
+        0.0,
+        Packing::Regular,
+        &mut Control::default(),
+    )
+    .unwrap();
+    let plane = bending(plane, |body, (row, place), speed| {
+        body.motion[row].z[place] = speed
+    });
+    let cells = 10;
+    let lattice = Cubic::of(&solid(ratio), thickness / cells as f64 / SIDE);
+    let grid = Grid {
+        layers: 2 * cells + 1,
+        columns: (width / lattice.side()).round() as usize + 1,
+        rows: 13,
+    };
+    let mut slab =
+        CubicBody::of_particles(lattice, grid, 0.0, None, |_| true, &mut Control::default())
+            .unwrap();
+    slab.held = slab
+        .particles()
+        .map(|(layer, place)| (layer, place, 1))
+        .collect();
+    let slab = bending(slab, |body, (layer, place), speed| {
+        body.motion[layer][2][place] = speed;
+    });
+    let [plane, slab] = [plane, slab].map(|ways| last_return(&ways));
+    assert!((slab / plane - 1.0).abs() < 0.02, "{plane} {slab}");
+}
+
+/// When a bending goes through its middle for the last time, in samples.
+fn last_return(ways: &[f64]) -> f64 {
+    let turns = |pair: &&[f64]| pair[0] * pair[1] < 0.0;
+    let pairs: Vec<&[f64]> = ways.windows(2).collect();
+    let last = pairs.iter().rposition(|pair| turns(&pair)).unwrap();
+    // A period and a half.
+    assert_eq!(pairs.iter().filter(|pair| turns(pair)).count(), 3);
+    last as f64 + ways[last] / (ways[last] - ways[last + 1])
 }
 
 /// Mass, centre and moment of inertia of a ball's half and of a cylinder.
