@@ -149,16 +149,9 @@ fn case(text: &str) -> End {
 }
 
 fn run(model: &dyn Model, scenario: &Scenario) -> End {
-    let start = Instant::now();
-    let mut watch = |_: model::Progress| match start.elapsed() < PATIENCE {
-        true => ControlFlow::Continue(()),
-        false => ControlFlow::Break(()),
-    };
-    let mut control = Control {
-        progress: Some(&mut watch),
-        ..Control::default()
-    };
-    match model::run(model, scenario, &mut control) {
+    // In a thread of its own: one that waits for a part of this run would take up a long run of another test.
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    match alone.unwrap().install(|| impatient(model, scenario)) {
         Ok(result) => match broken(&result) {
             Some(what) => Err(format!("{BROKEN}{}: {what}", model.name())),
             None => Ok("run"),
@@ -168,6 +161,20 @@ fn run(model: &dyn Model, scenario: &Scenario) -> End {
         }
         Err(error) => Err(format!("{BROKEN}{}: {error}", model.name())),
     }
+}
+
+/// A run that is stopped when it takes long.
+fn impatient(model: &dyn Model, scenario: &Scenario) -> Result<RunResult, Error> {
+    let start = Instant::now();
+    let mut watch = |_: model::Progress| match start.elapsed() < PATIENCE {
+        true => ControlFlow::Continue(()),
+        false => ControlFlow::Break(()),
+    };
+    let mut control = Control {
+        progress: Some(&mut watch),
+        ..Control::default()
+    };
+    model::run(model, scenario, &mut control)
 }
 
 /// What is wrong with a result, if anything is.
