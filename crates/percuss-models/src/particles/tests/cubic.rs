@@ -389,7 +389,7 @@ fn a_slab_is_a_plate_in_plane_strain() {
 fn last_return(ways: &[f64]) -> f64 {
     let turns = |pair: &&[f64]| pair[0] * pair[1] < 0.0;
     let pairs: Vec<&[f64]> = ways.windows(2).collect();
-    let last = pairs.iter().rposition(|pair| turns(&pair)).unwrap();
+    let last = pairs.iter().rposition(turns).unwrap();
     // A period and a half.
     assert_eq!(pairs.iter().filter(|pair| turns(pair)).count(), 3);
     last as f64 + ways[last] / (ways[last] - ways[last + 1])
