@@ -60,10 +60,11 @@ impl ResultUnit {
     pub const K: Self = si(["K", "_k"]);
 
     /// All units that a name can end with; a longer end comes before one that it ends with.
-    pub const NAMED: [Self; 11] = [
+    pub const NAMED: [Self; 12] = [
         Self::M_S,
         Self::N_S,
         Self::MM,
+        Self::MM2,
         Self::G,
         Self::US,
         Self::NS,
@@ -101,6 +102,7 @@ mod tests {
             ("momentum_support_n_s", "momentum_support", "N s"),
             ("time_step_ns", "time_step", "ns"),
             ("plug_mass_g", "plug_mass", "g"),
+            ("crack_area_mm2", "crack_area", "mm2"),
             ("energy_residual", "energy_residual", ""),
         ] {
             let (found, of) = ResultUnit::split(name);
