@@ -13,7 +13,7 @@ use super::{
     fracture::Softening,
     pieces::{Piece, root},
     setup::Softenings,
-    shape::Rigid,
+    shape::{Rigid, Shape},
 };
 use crate::{
     Error, Scenario,
@@ -70,8 +70,18 @@ pub(super) trait Bonded<const D: usize>: Debug + Clone + Sync {
     fn softening(&self) -> Option<&Softening>;
     /// Contact of its pieces.
     fn contact_law(&self, scenario: &Scenario) -> ContactLaw;
-    /// Inertia of a projectile of its dimensions.
-    fn inertia(&self, scenario: &Scenario, rigid: Rigid) -> Inertia;
+    /// Area of a strip or volume of a body of revolution, distance of its centre behind the tip [m], and second moment about it.
+    fn moments(shape: &Shape) -> (f64, f64, f64);
+    /// Inertia of what meets the rigid body, or of that body.
+    fn inertia(&self, scenario: &Scenario, rigid: Rigid) -> Inertia {
+        let Rigid::Projectile(shape) = rigid else {
+            return Inertia::on_axis(self.mass());
+        };
+        let density = scenario.projectile.material.density.si();
+        let (size, centre, second) = Self::moments(&shape);
+        let turns = scenario.obliquity != 0.0;
+        Inertia::of(density * size, (centre, second), density, turns)
+    }
 
     /// Mass of a particle; 0 where there is none.
     fn mass_of(&self, row: usize, place: usize) -> f64;

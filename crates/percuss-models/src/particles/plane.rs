@@ -12,7 +12,7 @@ use super::{
     fracture::Softening,
     run::Impact,
     setup::{self, Softenings},
-    shape::Rigid,
+    shape::{Rigid, Shape},
     survey,
 };
 use crate::{
@@ -78,15 +78,9 @@ impl Bonded<2> for Body {
         )
     }
 
-    fn inertia(&self, scenario: &Scenario, rigid: Rigid) -> Inertia {
-        match rigid {
-            Rigid::Wall => Inertia::on_axis(self.mass()),
-            Rigid::Projectile(shape) => {
-                let density = scenario.projectile.material.density.si();
-                let turns = scenario.obliquity != 0.0;
-                Inertia::of(density * shape.area(), shape.moments(), density, turns)
-            }
-        }
+    fn moments(shape: &Shape) -> (f64, f64, f64) {
+        let (centre, second) = shape.moments();
+        (shape.area(), centre, second)
     }
 
     fn mass_of(&self, row: usize, place: usize) -> f64 {

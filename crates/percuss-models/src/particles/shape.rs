@@ -140,36 +140,27 @@ impl Shape {
 
     /// Distance of the centre of area behind the tip [m], and the second moment of area about it, in the plane [m4].
     pub(super) fn moments(&self) -> (f64, f64) {
-        // With `behind = nose t²` the width of every nose is smooth in `t`.
-        let nose = self.nose_length();
-        let mut sums = [0.0; 3];
-        let mut add = |weight: f64, behind: f64| {
-            let half = self.half_width(behind);
-            let area = weight * 2.0 * half;
-            sums[0] += area;
-            sums[1] += area * behind;
-            sums[2] += area * (behind * behind + half * half / 3.0);
-        };
-        for i in 0..=PANELS {
-            let t = f64::from(i) / f64::from(PANELS);
-            add(simpson(i) * 2.0 * nose * t, nose * t * t);
-            let shank = self.length - nose;
-            add(simpson(i) * shank, nose + shank * t);
-        }
-        let centre = sums[1] / sums[0];
-        (centre, sums[2] - sums[1] * centre)
+        let (_, centre, second) = self.integrals(|half| [2.0 * half, half * half / 3.0]);
+        (centre, second)
     }
 
     /// Volume of the body of revolution [m3], distance of its centre behind the tip [m], and second moment of volume about an axis across it there [m5].
     pub(super) fn round_moments(&self) -> (f64, f64, f64) {
+        self.integrals(|half| [std::f64::consts::PI * half * half, 0.25 * half * half])
+    }
+
+    /// Integral of a section over the length, distance of its centre behind the tip [m], and second moment about it: of the size of a section of half a
+    /// width and the square of its radius of gyration [m2].
+    fn integrals(&self, section: impl Fn(f64) -> [f64; 2]) -> (f64, f64, f64) {
+        // With `behind = nose t²` the width of every nose is smooth in `t`.
         let nose = self.nose_length();
         let mut sums = [0.0; 3];
         let mut add = |weight: f64, behind: f64| {
-            let square = self.half_width(behind).powi(2);
-            let volume = weight * std::f64::consts::PI * square;
-            sums[0] += volume;
-            sums[1] += volume * behind;
-            sums[2] += volume * (behind * behind + 0.25 * square);
+            let [size, square] = section(self.half_width(behind));
+            let size = weight * size;
+            sums[0] += size;
+            sums[1] += size * behind;
+            sums[2] += size * (behind * behind + square);
         };
         for i in 0..=PANELS {
             let t = f64::from(i) / f64::from(PANELS);

@@ -24,9 +24,9 @@ pub(in super::super) struct CubicBody {
     /// Bonds now.
     pub(in super::super) bonds: Vec<Bonds>,
     /// What the volume of each particle adds to the pull of its bonds [N/m], in layers.
-    pub(super) swelling: Vec<Vec<f64>>,
+    pub(super) volume_pull: Vec<Vec<f64>>,
     /// The same after the step that is computed.
-    pub(super) next_swelling: Vec<Vec<f64>>,
+    pub(super) next_volume_pull: Vec<Vec<f64>>,
     pub(in super::super) damage: Vec<Damage>,
     /// Layer, place and axis of what cannot move, in order.
     pub(in super::super) held: Vec<(usize, usize, usize)>,
@@ -47,8 +47,8 @@ pub(in super::super) struct Layer {
     pub(super) inverse_mass: Vec<f64>,
     /// Weights of the bonds that start in the layer: the part of their tetrahedra that is there, by volume.
     pub(in super::super) weights: [Vec<f64>; KINDS],
-    /// Pull of a bond per sum of weighted elongations [N/m2 per m2]: stiffness of the volume of each particle.
-    pub(super) swell: Vec<f64>,
+    /// Stiffness of the volume of each particle: its pull over the sum of the weighted elongations of its bonds [N/m3].
+    pub(super) volume_stiffness: Vec<f64>,
     /// Lengths of the bonds at rest [m], where particles are moved; otherwise empty.
     pub(super) rests: [Vec<f64>; KINDS],
     /// How far particles are moved from their places on the lattice [m]; otherwise empty.
@@ -60,7 +60,7 @@ pub(in super::super) struct Layer {
 pub(in super::super) struct Bonds {
     /// Elongations [m].
     pub(super) elongation: [Vec<f64>; KINDS],
-    /// First what each adds to the change of volume of its ends [m2], then its force over its length [N/m].
+    /// First what each adds to the dilatation of its ends [m2], then its force over its length [N/m].
     pub(super) pull: [Vec<f64>; KINDS],
 }
 
@@ -68,7 +68,7 @@ pub(in super::super) struct Bonds {
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(in super::super) struct Damage {
     /// Their largest elongations, in those at which they start to soften.
-    pub(super) worst: [Vec<f64>; KINDS],
+    pub(in super::super) worst: [Vec<f64>; KINDS],
     /// Energy that their softening has taken [J].
     pub(super) lost: f64,
     /// Bonds that soften in this step.
@@ -85,8 +85,8 @@ pub(in super::super) struct Change {
     pub(in super::super) damage: f64,
     /// Elongations before and after [m].
     pub(super) elongations: [f64; 2],
-    /// Sum of the swelling of its ends before [N/m].
-    pub(super) swelling: f64,
+    /// Sum of the pulls of the volumes of its ends before [N/m].
+    pub(super) volume_pull: f64,
 }
 
 impl CubicBody {
@@ -120,8 +120,8 @@ impl CubicBody {
             motion: Vec::new(),
             next: Vec::new(),
             bonds: Vec::new(),
-            swelling: Vec::new(),
-            next_swelling: Vec::new(),
+            volume_pull: Vec::new(),
+            next_volume_pull: Vec::new(),
             damage: Vec::new(),
             held: Vec::new(),
             volume: 0.0,
@@ -132,7 +132,7 @@ impl CubicBody {
                 mass: zeros(),
                 inverse_mass: zeros(),
                 weights: kinds(),
-                swell: zeros(),
+                volume_stiffness: zeros(),
                 ..Layer::default()
             });
             for vectors in [&mut body.state, &mut body.motion, &mut body.next] {
@@ -142,8 +142,8 @@ impl CubicBody {
                 elongation: kinds(),
                 pull: kinds(),
             });
-            body.swelling.push(zeros());
-            body.next_swelling.push(zeros());
+            body.volume_pull.push(zeros());
+            body.next_volume_pull.push(zeros());
             body.damage.push(Damage::default());
         })?;
         if let Some(moved) = moved {
@@ -223,7 +223,7 @@ impl CubicBody {
             let volume = mass / self.lattice.density;
             let made = &mut self.layers[layer];
             made.inverse_mass[place] = 1.0 / mass;
-            made.swell[place] = self.lattice.bulk * volume * (3.0 / size).powi(2);
+            made.volume_stiffness[place] = self.lattice.bulk * volume * (3.0 / size).powi(2);
         }
     }
 

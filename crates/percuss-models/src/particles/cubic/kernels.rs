@@ -28,7 +28,7 @@ pub(super) struct Next<'a> {
     pub(super) number: usize,
     pub(super) layers: [&'a Layer; 3],
     pub(super) state: [&'a Vector; 3],
-    pub(super) swelling: [&'a [f64]; 3],
+    pub(super) volume_pull: [&'a [f64]; 3],
 }
 
 /// Places that have particles, with one row and one place before and behind.
@@ -92,29 +92,29 @@ pub(super) fn before(bonds: &[Bonds], number: usize) -> [Option<&Bonds>; 3] {
 }
 
 /// Sum of what the bonds of a particle add to its change of volume.
-pub(super) struct Swell<'a> {
+pub(super) struct Dilatation<'a> {
     pub(super) grid: Grid,
     pub(super) number: usize,
     pub(super) layer: &'a Layer,
     pub(super) bonds: [Option<&'a Bonds>; 3],
-    pub(super) swelling: &'a mut [f64],
+    pub(super) volume_pull: &'a mut [f64],
 }
 
-impl pulp::NullaryFnOnce for Swell<'_> {
+impl pulp::NullaryFnOnce for Dilatation<'_> {
     type Output = ();
 
     #[inline(always)]
     fn call(self) {
         let grid = &self.grid;
-        let swelling = at_mut(self.swelling, grid);
-        swelling.fill(0.0);
+        let volume_pull = at_mut(self.volume_pull, grid);
+        volume_pull.fill(0.0);
         gather(grid, self.number, self.bonds, |_, _, parts, _| {
-            for (sum, part) in swelling.iter_mut().zip(parts) {
+            for (sum, part) in volume_pull.iter_mut().zip(parts) {
                 *sum += part;
             }
         });
-        let stiff = at(&self.layer.swell, grid, 0);
-        for (sum, stiff) in swelling.iter_mut().zip(stiff) {
+        let stiff = at(&self.layer.volume_stiffness, grid, 0);
+        for (sum, stiff) in volume_pull.iter_mut().zip(stiff) {
             *sum *= stiff;
         }
     }
@@ -155,18 +155,18 @@ impl pulp::NullaryFnOnce for Pull<'_> {
                 place,
                 damage: more,
                 elongations: [old, new],
-                swelling,
+                volume_pull,
             } = change;
             let (offset, on) = common.grid.offset(kind, next.number);
             let other = place.saturating_add_signed(offset);
-            let after = next.swelling[0][place] + next.swelling[on][other];
+            let after = next.volume_pull[0][place] + next.volume_pull[on][other];
             let length = match common.is_moved {
                 true => layer.rests[kind][place],
                 false => norm(common.lattice.vector(kind)),
             };
             let weight = layer.weights[kind][place];
             let of_spring = common.lattice.stiffness(kind) * old * new;
-            let of_volume = relative(kind) * length * (swelling * new + after * old);
+            let of_volume = relative(kind) * length * (volume_pull * new + after * old);
             damage.lost += 0.5 * weight * more * (of_spring + of_volume);
         }
     }
@@ -189,8 +189,8 @@ fn pull<const SOFTENS: bool, const MOVED: bool>(
     let (_, count) = inside(grid);
     let (stiffness, share) = (common.lattice.stiffness(kind), relative(kind));
     let rest_length = norm(common.lattice.vector(kind));
-    let own = at(next.swelling[0], grid, 0);
-    let other = at(next.swelling[on], grid, offset);
+    let own = at(next.volume_pull[0], grid, 0);
+    let other = at(next.volume_pull[on], grid, offset);
     let weights = at(&next.layers[0].weights[kind], grid, 0);
     let rests = if MOVED {
         at(&next.layers[0].rests[kind], grid, 0)

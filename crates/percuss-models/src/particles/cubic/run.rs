@@ -14,7 +14,7 @@ use super::{
         lattice::eigenvalues,
         run::Impact,
         setup::Softenings,
-        shape::Rigid,
+        shape::{Rigid, Shape},
     },
     body::CubicBody,
     lattice::{KINDS, SIDE},
@@ -82,16 +82,8 @@ impl Bonded<3> for CubicBody {
         )
     }
 
-    fn inertia(&self, scenario: &Scenario, rigid: Rigid) -> Inertia {
-        match rigid {
-            Rigid::Wall => Inertia::on_axis(self.mass()),
-            Rigid::Projectile(shape) => {
-                let density = scenario.projectile.material.density.si();
-                let turns = scenario.obliquity != 0.0;
-                let (volume, centre, second) = shape.round_moments();
-                Inertia::of(density * volume, (centre, second), density, turns)
-            }
-        }
+    fn moments(shape: &Shape) -> (f64, f64, f64) {
+        shape.round_moments()
     }
 
     fn mass_of(&self, layer: usize, place: usize) -> f64 {

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use super::{
     super::{bonded::Load, energy::BodySums},
-    body::{Bonds, CubicBody, Vector},
-    kernels::{Common, Move, Next, Pull, Sum, Swell, before},
+    body::{Bonds, CubicBody, Damage, Vector},
+    kernels::{Common, Dilatation, Move, Next, Pull, Sum, before},
     lattice::KINDS,
     stretch::Stretch,
 };
@@ -48,7 +48,7 @@ impl CubicBody {
             number,
             layers: numbers.map(|number| &self.layers[number]),
             state: numbers.map(|number| &self.state[number]),
-            swelling: numbers.map(|number| &*self.swelling[number]),
+            volume_pull: numbers.map(|number| &*self.volume_pull[number]),
         }
     }
 
@@ -64,58 +64,56 @@ impl CubicBody {
     /// Bonds and damage at the present displacements.
     pub(in super::super) fn refresh(&mut self) {
         let arch = pulp::Arch::new();
-        let at_once = self.at_once();
         let mut bonds = std::mem::take(&mut self.bonds);
         let mut damage = std::mem::take(&mut self.damage);
-        let mut swelling = std::mem::take(&mut self.next_swelling);
-        {
-            let body = &*self;
-            bonds
-                .par_iter_mut()
-                .zip(&mut damage)
-                .enumerate()
-                .with_min_len(at_once)
-                .for_each(|(number, (bonds, damage))| {
-                    let (common, next) = (body.common(), body.next(number));
-                    arch.dispatch(Stretch {
-                        common,
-                        next,
-                        bonds,
-                        damage,
-                    });
-                });
-            swelling
-                .par_iter_mut()
-                .enumerate()
-                .with_min_len(at_once)
-                .for_each(|(number, swelling)| {
-                    arch.dispatch(Swell {
-                        grid: body.grid,
-                        number,
-                        layer: &body.layers[number],
-                        bonds: before(&bonds, number),
-                        swelling,
-                    });
-                });
-        }
-        self.next_swelling = std::mem::replace(&mut self.swelling, swelling);
+        let mut volume_pull = std::mem::take(&mut self.next_volume_pull);
+        self.each_layer(&mut bonds, &mut damage, |common, next, bonds, damage| {
+            arch.dispatch(Stretch {
+                common,
+                next,
+                bonds,
+                damage,
+            });
+        });
         let body = &*self;
-        bonds
+        volume_pull
             .par_iter_mut()
-            .zip(&mut damage)
             .enumerate()
-            .with_min_len(at_once)
-            .for_each(|(number, (bonds, damage))| {
-                let (common, next) = (body.common(), body.next(number));
-                arch.dispatch(Pull {
-                    common,
-                    next,
-                    bonds,
-                    damage,
+            .with_min_len(body.at_once())
+            .for_each(|(number, volume_pull)| {
+                arch.dispatch(Dilatation {
+                    grid: body.grid,
+                    number,
+                    layer: &body.layers[number],
+                    bonds: before(&bonds, number),
+                    volume_pull,
                 });
             });
+        self.next_volume_pull = std::mem::replace(&mut self.volume_pull, volume_pull);
+        self.each_layer(&mut bonds, &mut damage, |common, next, bonds, damage| {
+            arch.dispatch(Pull {
+                common,
+                next,
+                bonds,
+                damage,
+            });
+        });
         self.bonds = bonds;
         self.damage = damage;
+    }
+
+    /// Computes something of the bonds that start in each layer.
+    fn each_layer(
+        &self,
+        bonds: &mut [Bonds],
+        damage: &mut [Damage],
+        compute: impl Fn(Common<'_>, Next<'_>, &mut Bonds, &mut Damage) + Sync,
+    ) {
+        (bonds.par_iter_mut().zip(damage).enumerate())
+            .with_min_len(self.at_once())
+            .for_each(|(number, (bonds, damage))| {
+                compute(self.common(), self.next(number), bonds, damage);
+            });
     }
 
     /// Forces on the particles of a layer [N].
@@ -218,9 +216,12 @@ impl CubicBody {
             for kind in 0..KINDS {
                 sums.elastic += self.spring_energy(number, place, kind);
             }
-            let (swelling, stiff) = (self.swelling[number][place], layer.swell[place]);
+            let (volume_pull, stiff) = (
+                self.volume_pull[number][place],
+                layer.volume_stiffness[place],
+            );
             if stiff != 0.0 {
-                sums.elastic += 0.5 * swelling * swelling / stiff;
+                sums.elastic += 0.5 * volume_pull * volume_pull / stiff;
             }
         }
         sums

@@ -106,7 +106,7 @@ fn stretch<const SOFTENS: bool, const MOVED: bool>(
         && let Some(law) = &softening
     {
         let [own, other] = [(0, 0), (on, offset)]
-            .map(|(on, offset): (usize, isize)| at(next.swelling[on], grid, offset));
+            .map(|(on, offset): (usize, isize)| at(next.volume_pull[on], grid, offset));
         for i in 0..count {
             if over(law, length_of(i), fresh[i], weights[i], worst[i]) <= 0.0 {
                 continue;
@@ -117,7 +117,7 @@ fn stretch<const SOFTENS: bool, const MOVED: bool>(
                 place: inside(grid).0 + i,
                 damage: law.integrity(worst[i], 1.0) - law.integrity(measure, 1.0),
                 elongations: [elongation[i], fresh[i]],
-                swelling: own[i] + other[i],
+                volume_pull: own[i] + other[i],
             });
             worst[i] = measure;
         }

@@ -4,21 +4,21 @@ use super::{contact::scenario, solid};
 use crate::{
     particles::{
         bonded::Bonded,
-        cubic::{CUT, Cubic, CubicBody, Grid, SIDE, lattice_factor, softening},
+        cubic::{Cubic, CubicBody, Grid, SIDE},
         packing::Moved,
         run::Impact,
     },
     solver::{Control, interface::Solver},
 };
 
-const SPACING: f64 = 1e-3;
+pub(super) const SPACING: f64 = 1e-3;
 
-fn moved(amplitude: f64, seed: u64) -> Option<Moved> {
+pub(super) fn moved(amplitude: f64, seed: u64) -> Option<Moved> {
     Some(Moved { amplitude, seed })
 }
 
 /// A block of cells with a spacing of 1 mm.
-fn block(ratio: f64, cells: [usize; 3], moved: Option<Moved>) -> CubicBody {
+pub(super) fn block(ratio: f64, cells: [usize; 3], moved: Option<Moved>) -> CubicBody {
     let grid = Grid {
         layers: 2 * cells[2] + 1,
         columns: cells[0] + 1,
@@ -29,7 +29,7 @@ fn block(ratio: f64, cells: [usize; 3], moved: Option<Moved>) -> CubicBody {
     CubicBody::of_particles(lattice, grid, 0.0, moved, |_| true, &mut Control::default()).unwrap()
 }
 
-fn displace(body: &mut CubicBody, of: impl Fn([f64; 3]) -> [f64; 3]) {
+pub(super) fn displace(body: &mut CubicBody, of: impl Fn([f64; 3]) -> [f64; 3]) {
     let particles: Vec<_> = body.particles().collect();
     for (layer, place) in particles {
         let moved = of(body.reference(layer, place));
@@ -503,7 +503,8 @@ fn an_irregular_packing_has_the_constants() {
         let (first, second) = solid(ratio).constants();
         for amplitude in [0.15, 0.3] {
             let mut mean = [0.0; 3];
-            for seed in 1..=3 {
+            // Others than those that the tuning was measured on.
+            for seed in 4..=6 {
                 let found = constants(ratio, moved(amplitude, seed));
                 for (mean, found) in mean.iter_mut().zip(found) {
                     *mean += found / 3.0;
@@ -567,113 +568,4 @@ fn constants(ratio: f64, moved: Option<Moved>) -> [f64; 3] {
     };
     let (along, shear) = (stress([strain, 0.0]), stress([0.0, strain]));
     [along[2], 0.5 * (along[0] + along[1]), shear[3]]
-}
-
-/// Clamped plate with a slit, in plane strain: energy per area at which the slit runs, over the fracture energy.
-fn factor_of_start(moved: Option<Moved>, cells: [usize; 3], end: f64) -> f64 {
-    let ratio = 0.22;
-    let mut start = block(ratio, cells, moved);
-    let side = start.lattice.side();
-    let first = 1e-3;
-    let modulus = 70e9;
-    // Energy that belongs to the strain of the first softening.
-    let energy = first * first * CUT * start.lattice.normal() * end;
-    let factor = lattice_factor(moved.is_some(), end);
-    start.soften(softening(
-        &start.lattice,
-        modulus,
-        energy * factor,
-        end,
-        moved.is_some(),
-    ));
-    let last = start.row_count() - 1;
-    let far = 0.5 * cells[1] as f64 * side - 0.1 * side;
-    let mut held: Vec<(usize, usize, usize)> = Vec::new();
-    for (layer, place) in start.particles() {
-        let axes: &[usize] = match layer {
-            0 => &[0, 1, 2],
-            layer if layer == last => &[0, 1, 2],
-            _ if start.reference(layer, place)[1].abs() > far => &[1],
-            _ => &[],
-        };
-        held.extend(axes.iter().map(|axis| (layer, place, *axis)));
-    }
-    start.held = held;
-    slit(&mut start, 0.5 * cells[2] as f64 * side + 0.25 * side);
-    let step = 0.4 * 2.0 / start.frequency(&mut Control::default()).unwrap();
-    let (lambda, mu) = solid(ratio).constants();
-    let height = cells[2] as f64 * side;
-    let strain_of = |factor: f64| (2.0 * factor * energy / ((lambda + 2.0 * mu) * height)).sqrt();
-    let (mut low, mut high) = (0.3, 8.0);
-    while high / low > 1.02 {
-        let factor = f64::sqrt(low * high);
-        match runs(&start, strain_of(factor), step, cells[1]) {
-            true => high = factor,
-            false => low = factor,
-        }
-    }
-    f64::sqrt(low * high)
-}
-
-/// Takes the bonds across a depth in the left third.
-fn slit(body: &mut CubicBody, depth: f64) {
-    let tip = -body.width() / 6.0;
-    let bonds: Vec<_> = body.bonds().collect();
-    for bond in bonds {
-        let [a, b] = (body.ends(bond)).map(|(layer, place)| body.reference(layer, place));
-        if (a[2] - depth) * (b[2] - depth) < 0.0 && 0.5 * (a[0] + b[0]) < tip {
-            let (layer, place, kind) = bond;
-            body.layers[layer].weights[kind][place] = 0.0;
-        }
-    }
-}
-
-/// Whether the slit runs in a plate that is strained slowly to a strain.
-fn runs(start: &CubicBody, strain: f64, step: f64, width: usize) -> bool {
-    let mut body = start.clone();
-    let softening = body.softening.take();
-    displace(&mut body, |[_, _, z]| [0.0, 0.0, strain * z]);
-    let damped = |body: &mut CubicBody, keep: f64| {
-        for speed in body.motion.iter_mut().flatten().flatten() {
-            *speed *= keep;
-        }
-    };
-    for _ in 0..300 {
-        body.advance(step, &[]);
-        damped(&mut body, 0.97);
-    }
-    body.softening = softening;
-    for number in 0..1500 {
-        body.advance(step, &[]);
-        damped(&mut body, 0.995);
-        if number % 50 == 49 && body.broken_bonds() > 40 * width {
-            return true;
-        }
-    }
-    false
-}
-
-/// The table of lattice factors, as the mean over three seeds.
-#[test]
-fn cracks_take_the_energy_of_the_table() {
-    let found: Vec<f64> = (1..=3)
-        .map(|seed| factor_of_start(moved(0.3, seed), [36, 3, 16], 3.0))
-        .collect();
-    let mean = found.iter().sum::<f64>() / found.len() as f64;
-    println!("irregular: {found:.3?}");
-    let expected = lattice_factor(true, 3.0);
-    assert!((mean / expected - 1.0).abs() < 0.05, "{mean} {expected}");
-}
-
-/// The other numbers of the table, and how they depend on the size of the plate.
-#[test]
-#[ignore = "a measurement of minutes"]
-fn the_table_of_lattice_factors() {
-    for cells in [[36, 3, 16], [54, 3, 24]] {
-        for end in [1.05, 3.0, 10.0] {
-            let regular = factor_of_start(None, cells, end);
-            let irregular = [1, 2, 3].map(|seed| factor_of_start(moved(0.3, seed), cells, end));
-            println!("{cells:?} {end}: regular {regular:.2}, irregular {irregular:.2?}");
-        }
-    }
 }

@@ -3,6 +3,7 @@
 mod contact;
 mod cracks;
 mod cubic;
+mod cubic_cracks;
 mod debris;
 mod flight;
 mod fracture;
