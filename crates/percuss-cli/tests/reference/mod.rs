@@ -3,6 +3,7 @@
 //! `REWRITE_REFERENCES=1 cargo test -p percuss-cli --test all reference::` writes them again.
 
 mod case_file;
+mod cases;
 mod commands;
 mod gallery;
 mod results;
@@ -16,6 +17,7 @@ fn reference_pages_are_those_of_the_program() {
         ("docs/reference/commands.md", commands::page()),
         ("docs/reference/results.md", results::page()),
         ("docs/reference/gallery.md", gallery::page()),
+        ("docs/reference/cases.md", cases::page()),
     ] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("../..")
