@@ -82,7 +82,7 @@ for _ in $(seq 60); do
 done
 [ "$state" = idle ] || fail "the node did not come up: ${state:-no answer}"
 
-# 240 shots of the paper's case, and what they come to without a scheduler.
+# 240 runs of the paper's case, and what they come to without a scheduler.
 work="$dir/work"
 mkdir -p "$work/bin"
 ln -s "$percuss" "$work/bin/percuss"

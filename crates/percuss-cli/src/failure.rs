@@ -48,7 +48,7 @@ pub enum Failure {
         /// Completed runs.
         done: u64,
         /// All runs.
-        shots: u64,
+        runs: u64,
     },
     /// The user stopped a computation without output: its name.
     Interrupted(&'static str),
@@ -205,8 +205,8 @@ impl Failure {
                     "the same command with `--resume` continues from there",
                 )
             }
-            Self::SweepStopped { done, shots } => message(
-                &format!("the sweep was stopped with {done} of {shots} runs done"),
+            Self::SweepStopped { done, runs } => message(
+                &format!("the sweep was stopped with {done} of {runs} runs done"),
                 "the same command with `--resume` continues from there",
             ),
             Self::Interrupted(what) => {

@@ -14,7 +14,7 @@ use percuss::{
     summary::CaseResults,
     units::UnitSystem,
 };
-use percuss_report::Figure;
+use percuss_report::{Figure, FigureFormat};
 
 use crate::{failure::Failure, output};
 
@@ -46,14 +46,23 @@ pub fn has_history(result: &RunResult) -> bool {
 /// Output folder with the list of its files.
 pub struct RunFolder {
     path: PathBuf,
+    formats: Vec<FigureFormat>,
     written: Vec<PathBuf>,
 }
 
 impl RunFolder {
     /// Makes the folder, if one is requested, with a self-contained copy of the case, if there is one. Call it before a long run, so
     /// that a folder that cannot be written is reported at once.
-    pub fn wanted(path: Option<&Path>, case: Option<&Document>) -> Result<Option<Self>, Failure> {
-        path.map(|path| Self::create(path, case)).transpose()
+    /// Figures are written in these formats.
+    pub fn wanted(
+        path: Option<&Path>,
+        case: Option<&Document>,
+        formats: &[FigureFormat],
+    ) -> Result<Option<Self>, Failure> {
+        let Some(path) = path else { return Ok(None) };
+        let mut folder = Self::create(path, case)?;
+        folder.formats = formats.to_vec();
+        Ok(Some(folder))
     }
 
     /// Makes the folder and puts a copy of the case into it, if there is one.
@@ -61,6 +70,7 @@ impl RunFolder {
         make_folder(path)?;
         let mut folder = Self {
             path: path.to_path_buf(),
+            formats: FigureFormat::DEFAULT.to_vec(),
             written: Vec::new(),
         };
         if let Some(case) = case {
@@ -110,7 +120,7 @@ impl RunFolder {
             let mut report = report.lock().unwrap_or_else(PoisonError::into_inner);
             report(part, &format!("drawn {name}"));
         };
-        let files = percuss_report::write_figures(&self.path, &figures, &drawn)?;
+        let files = percuss_report::write_figures(&self.path, &figures, &self.formats, &drawn)?;
         self.written.extend(files);
         Ok(self.written)
     }
@@ -126,15 +136,13 @@ impl RunFolder {
         self.written.extend(percuss_report::write_comparison(
             &self.path, comparison, units,
         )?);
-        for figure in percuss_report::compare_figures(scenario, comparison) {
-            self.written.extend(figure.write(&self.path)?);
-        }
+        self.add_figures(&percuss_report::compare_figures(scenario, comparison))?;
         Ok(self.written)
     }
 
     /// Writes figures.
     pub fn add_figures(&mut self, figures: &[Figure]) -> Result<(), Failure> {
-        let files = percuss_report::write_figures(&self.path, figures, &|_, _| ())?;
+        let files = percuss_report::write_figures(&self.path, figures, &self.formats, &|_, _| ())?;
         self.add(files);
         Ok(())
     }

@@ -25,19 +25,19 @@ pub fn text(validation: &Validation, files: &[String], in_detail: bool) -> Strin
     let repeated = validation
         .tests
         .iter()
-        .filter(|shot| shot.duplicate_of.is_some())
+        .filter(|test| test.duplicate_of.is_some())
         .count();
     let suspect = validation
         .tests
         .iter()
-        .filter(|shot| shot.flag.is_some())
+        .filter(|test| test.flag.is_some())
         .count();
     if repeated + suspect > 0 {
         text += &format!("not counted: {suspect} suspect and {repeated} repeated tests\n");
     }
     text += "relative errors in %: predicted / measured - 1\n";
     for kind in Kind::ALL {
-        if validation.tests.iter().any(|shot| shot.kind == kind) {
+        if validation.tests.iter().any(|test| test.kind == kind) {
             text += &section(validation, kind, in_detail);
         }
     }

@@ -7,7 +7,7 @@ use tempfile::TempDir;
 
 use crate::support::{json, percuss, whole_report};
 
-/// Made up: two shots on three meshes, one that fails the check on three and one on two, and one of no shot of the design.
+/// Made up: two runs on three meshes, one that fails the check on three and one on two, and one of no shot of the design.
 const REFERENCE: &str = "\
 projectile,target,length_to_diameter,impact_velocity_m_s,cells_per_radius,depth_of_penetration_mm,largest_depth_mm,projectile_final_length_mm,projectile_final_diameter_mm,outcome,energy_residual,transfer_loss,steps,particles
 copper-woodward,aluminium-2024-t351-woodward,1.0,600.0,4,1.8,1.9,3.0,8.0,rebounded,0.002,0.05,1000,6000

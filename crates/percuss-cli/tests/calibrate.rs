@@ -1,4 +1,4 @@
-//! `percuss calibrate`: from shots to a material with its provenance.
+//! `percuss calibrate`: from tests to a material with its provenance.
 
 use std::fs;
 

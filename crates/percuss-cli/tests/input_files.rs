@@ -50,7 +50,7 @@ fn pipes_and_devices_are_refused_wherever_a_file_is_named() {
     let folder = folder();
     let commands: [&[&str]; 7] = [
         &["run"],
-        &["limit", "--shots"],
+        &["limit", "--tests"],
         &["sweep", "--out", "rows"],
         &[
             "calibrate",

@@ -1,4 +1,4 @@
-//! `percuss limit`: ballistic limits of a case, and V50 of shots.
+//! `percuss limit`: ballistic limits of a case, and V50 of tests.
 
 use std::fs;
 
@@ -18,11 +18,11 @@ impact_velocity = '300 m/s'
 residual_velocity = '200 m/s'
 source = 'made up'
 ";
-const SHOTS: &str =
+const TESTS: &str =
     "impact_velocity_m_s,perforated\n180,no\n184,no\n188,no\n186,yes\n190,yes\n194,yes\n";
 
 fn folder(case: &str) -> TempDir {
-    folder_with(&[("shot.toml", case), ("shots.csv", SHOTS)])
+    folder_with(&[("shot.toml", case), ("tests.csv", TESTS)])
 }
 
 fn limit(folder: &TempDir, arguments: &[&str]) -> Said {
@@ -105,7 +105,7 @@ fn json_has_an_entry_a_model_with_stable_names() {
     let folder = folder(BLUNT);
     let object = json(&ok(
         &folder,
-        &["shot.toml", "--fast", "--json", "--shots", "shots.csv"],
+        &["shot.toml", "--fast", "--json", "--tests", "tests.csv"],
     ));
     let results = object["results"].as_array().unwrap();
     let of = |model: &str| {
@@ -141,9 +141,9 @@ fn json_has_an_entry_a_model_with_stable_names() {
     let probit = &object["v50"]["estimates"][0];
     assert_eq!(probit["method"], "probit");
     assert!((number(&probit["v50_m_s"]) - 187.0).abs() < 1e-6);
-    let shots = object["shots"].as_array().unwrap();
-    assert_eq!(object["v50"]["tests"], shots.len());
-    assert!(number(&shots[0]["impact_velocity_m_s"]) > 0.0 && shots[0]["perforated"].is_boolean());
+    let tests = object["tests"].as_array().unwrap();
+    assert_eq!(object["v50"]["tests"], tests.len());
+    assert!(number(&tests[0]["impact_velocity_m_s"]) > 0.0 && tests[0]["perforated"].is_boolean());
 }
 
 #[test]
@@ -196,8 +196,8 @@ fn files_and_figures_are_written() {
         &folder,
         &[
             "shot.toml",
-            "--shots",
-            "shots.csv",
+            "--tests",
+            "tests.csv",
             "--out",
             "out",
             "--model",
@@ -232,12 +232,12 @@ fn files_and_figures_are_written() {
 }
 
 #[test]
-fn shots_need_no_case_and_separated_ones_have_no_likeliest_v50() {
+fn tests_need_no_case_and_separated_ones_have_no_likeliest_v50() {
     let folder = folder(BLUNT);
-    let text = ok(&folder, &["--shots", "shots.csv"]);
+    let text = ok(&folder, &["--tests", "tests.csv"]);
     assert!(
         flat(&text).contains(
-            "6 tests of shots.csv: 3 partial and 3 complete penetrations; zone of mixed results from 186 to 188 m/s"
+            "6 tests of tests.csv: 3 partial and 3 complete penetrations; zone of mixed results from 186 to 188 m/s"
         ),
         "{text}"
     );
@@ -246,7 +246,7 @@ fn shots_need_no_case_and_separated_ones_have_no_likeliest_v50() {
         "impact_velocity_m_s,perforated\n170,no\n180,no\n190,yes\n200,yes\n",
     )
     .unwrap();
-    let text = ok(&folder, &["--shots", "apart.csv", "--span", "20 m/s"]);
+    let text = ok(&folder, &["--tests", "apart.csv", "--span", "20 m/s"]);
     for part in [
         "no zone of mixed results",
         "extremes: the 2 fastest partial",
@@ -268,9 +268,9 @@ fn what_is_wrong_is_said_with_its_place() {
     )
     .unwrap();
     for (arguments, code, words) in [
-        (vec!["--shots", "bad.csv"], 2, "bad.csv:2:5"),
+        (vec!["--tests", "bad.csv"], 2, "bad.csv:2:5"),
         (
-            vec!["--shots", "none.csv"],
+            vec!["--tests", "none.csv"],
             4,
             "give the path of a CSV file that exists",
         ),
@@ -287,7 +287,7 @@ fn what_is_wrong_is_said_with_its_place() {
         (vec!["shot.toml", "--tolerance", "0.5"], 2, "0.2 %"),
         (vec!["shot.toml", "--model", "pluging"], 2, "plugging"),
         (
-            vec!["--model", "plugging", "--shots", "shots.csv"],
+            vec!["--model", "plugging", "--tests", "tests.csv"],
             2,
             "CASE.toml",
         ),
@@ -394,16 +394,16 @@ fn further_columns_of_tests_are_noted() {
     let rows = |header: &str| {
         format!("{header}\n300,no,a\n325,yes,b\n318,no,b\n322,yes,a\n312,yes,a\n310,no,b\n")
     };
-    let path = folder.path().join("shots.csv");
+    let path = folder.path().join("tests.csv");
     fs::write(&path, rows("impact_velocity_m_s,perforated,shooter")).unwrap();
-    let said = percuss(folder.path(), ["limit", "--shots", "shots.csv"]);
+    let said = percuss(folder.path(), ["limit", "--tests", "tests.csv"]);
     assert_eq!(said.code, 0, "{}", said.stderr);
     assert_eq!(
         said.stderr,
-        "note: the column `shooter` of `shots.csv` is not read\n"
+        "note: the column `shooter` of `tests.csv` is not read\n"
     );
     fs::write(&path, rows("impact_velocity_m_s,perforatd,shooter")).unwrap();
-    let said = percuss(folder.path(), ["limit", "--shots", "shots.csv"]);
+    let said = percuss(folder.path(), ["limit", "--tests", "tests.csv"]);
     assert_eq!(said.code, 2);
     assert!(
         said.stderr.contains("did you mean `perforated`?"),

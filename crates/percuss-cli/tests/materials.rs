@@ -177,7 +177,7 @@ fn a_material_answers_to_its_aliases() {
             "5083",
             &["several materials", "`5083-h112`, `5083-h116`"][..],
         ),
-        ("Dyneema", &["delaminating", "percuss limit --shots"]),
+        ("Dyneema", &["delaminating", "percuss limit --tests"]),
         ("A36", &["no published law", "`1006`"]),
     ] {
         let shot = shot(&CASE.replace("\"copper\"", &format!("\"{name}\"")));

@@ -17,7 +17,7 @@ use crate::support::{
     sweeps::{block, count_blocks, merged, ok, spawn, sweep},
 };
 
-/// 320 shots of a few milliseconds.
+/// 320 runs of a few milliseconds.
 const GRID: &str = "
 base = 'scenario.toml'
 model = 'chain'
@@ -31,7 +31,7 @@ key = 'chain.constraint_factor'
 linear = { from = 1, to = 3.5, count = 8 }
 ";
 
-/// Shots of which some have a negative speed.
+/// Runs of which some have a negative speed.
 const RANDOM: &str = "
 base = 'scenario.toml'
 model = 'chain'
@@ -144,9 +144,9 @@ fn lost_and_damaged_blocks_are_computed_again() {
     );
     assert!(said.contains("1 damaged file"), "{said}");
     let status = json(&ok(&folder, &["status", "rows", "--json"]));
-    assert_eq!(status["shots_done"], 42);
+    assert_eq!(status["runs_done"], 42);
     assert_eq!(status["blocks_damaged"], serde_json::json!([7]));
-    assert_eq!(status["manifest"]["shots"], 50);
+    assert_eq!(status["manifest"]["runs"], 50);
     let said = sweep(&folder, &["merge", "rows", "--out", "x.parquet"]);
     assert!(
         said.stderr.contains("the first is block-000002.parquet"),

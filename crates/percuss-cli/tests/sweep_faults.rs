@@ -29,7 +29,7 @@ use crate::support::{
 /// The user that a test is who must not write everywhere.
 const NOBODY: u32 = 65534;
 
-/// A sweep in blocks of two shots.
+/// A sweep in blocks of two runs.
 fn folder(samples: u32) -> TempDir {
     let sweep = format!(
         "base = 'scenario.toml'\nmodel = 'chain'\ndesign = 'sobol'\nsamples = {samples}\nblock_size = 2
@@ -95,11 +95,11 @@ fn a_sweep_that_is_killed_at_random_moments_loses_and_doubles_no_row() {
     assert!(merged(&folder, &["killed"]) == whole, "rows differ");
     let reader = SerializedFileReader::new(File::open(folder.path().join("rows.parquet")).unwrap());
     let rows = reader.unwrap();
-    let shots = rows
+    let runs = rows
         .get_row_iter(None)
         .unwrap()
         .map(|row| row.unwrap().get_long(0).unwrap());
-    assert!(shots.eq(0..i64::from(72 * kills)));
+    assert!(runs.eq(0..i64::from(72 * kills)));
 }
 
 /// All parts at once, two of them killed and run again.
@@ -220,10 +220,7 @@ fn a_damaged_manifest_is_an_error() {
     let text = fs::read_to_string(&manifest).unwrap();
     for (bad, words) in [
         (text[..text.len() / 2].to_owned(), "it is damaged"),
-        (
-            text.replace("\"shots\": 4", "\"shots\": 6"),
-            "it is damaged",
-        ),
+        (text.replace("\"runs\": 4", "\"runs\": 6"), "it is damaged"),
         (String::new(), "it is damaged"),
     ] {
         fs::write(&manifest, bad).unwrap();

@@ -92,7 +92,7 @@ fn two_parameters_make_a_map() {
 }
 
 #[test]
-fn shots_that_failed_are_shown_and_counted() {
+fn runs_that_failed_are_shown_and_counted() {
     let folder = computed("design = 'sobol'\nsamples = 40", &[DRAWN_SPEEDS]);
     let svg = drawn(&folder, &[], &format!("curves-{DEPTH}"));
     let failed = count(&svg, "failed (", ')');

@@ -6,16 +6,16 @@ use tempfile::TempDir;
 
 use crate::support::{Said, json, percuss, whole_report};
 
-const SHOTS: &str = "\
+const TESTS: &str = "\
 id,source,kind,projectile_material,diameter_mm,length_mm,impact_velocity_m_s,target_material,measured,unit,flag
 one,my <lab> & co,taylor,copper ofhc-copper,7.62,23.47,183,rigid-wall,16.8,mm,
 two,my <lab> & co,taylor,copper,7.62,23.47,123,rigid-wall,19.6,mm,
 odd,my <lab> & co,taylor,copper,7.62,23.47,123,rigid-wall,5,mm,a | slip
 ";
 
-fn folder_with(shots: &str) -> TempDir {
+fn folder_with(tests: &str) -> TempDir {
     let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("shots.csv"), shots).unwrap();
+    fs::write(folder.path().join("tests.csv"), tests).unwrap();
     folder
 }
 
@@ -24,7 +24,7 @@ fn ok(folder: &Path, arguments: &[&str]) -> String {
     let said = percuss(
         folder,
         [
-            &["validate", "--data", "shots.csv", "--model", "chain"],
+            &["validate", "--data", "tests.csv", "--model", "chain"],
             arguments,
         ]
         .concat(),
@@ -33,11 +33,11 @@ fn ok(folder: &Path, arguments: &[&str]) -> String {
 }
 
 #[test]
-fn a_users_shots_take_the_place_of_the_programs() {
-    let folder = folder_with(SHOTS);
+fn a_users_tests_take_the_place_of_the_programs() {
+    let folder = folder_with(TESTS);
     let text = ok(folder.path(), &[]);
     for part in [
-        "data: shots.csv (3)\n",
+        "data: tests.csv (3)\n",
         "not counted: 1 suspect and 0 repeated tests\n",
         "final lengths of Taylor rods (--kind taylor)\n",
         "copper ofhc-copper; copper",
@@ -58,7 +58,7 @@ fn a_users_shots_take_the_place_of_the_programs() {
 
 #[test]
 fn json_holds_statistics_and_predictions() {
-    let folder = folder_with(SHOTS);
+    let folder = folder_with(TESTS);
     let json = json(&ok(folder.path(), &["--json"]));
     assert_eq!(json["tests"], 3);
     let predictions = json["predictions"].as_array().unwrap();
@@ -82,7 +82,7 @@ fn json_holds_statistics_and_predictions() {
 
 #[test]
 fn the_report_is_written_whole_and_escaped() {
-    let folder = folder_with(&SHOTS.replace("two,", "<i>two</i>,"));
+    let folder = folder_with(&TESTS.replace("two,", "<i>two</i>,"));
     ok(folder.path(), &["--out", "report"]);
     let read = |name: &str| fs::read_to_string(folder.path().join("report").join(name)).unwrap();
     let parts = ["prefers-color-scheme:dark", "Blind predictions"];
@@ -102,9 +102,9 @@ fn the_report_is_written_whole_and_escaped() {
 }
 
 #[test]
-fn the_programs_own_shots_can_be_added() {
+fn the_programs_own_tests_can_be_added() {
     let folder = folder_with(
-        &SHOTS
+        &TESTS
             .replace("taylor", "depth")
             .replace("rigid-wall,", "aluminium-2024-t351,")
             .replace("measured,unit", "thickness_mm,measured,unit")
@@ -112,7 +112,7 @@ fn the_programs_own_shots_can_be_added() {
     );
     let text = ok(folder.path(), &["--data", "builtin", "--kind", "depth"]);
     assert!(
-        text.contains("data: shots.csv (3), tests of the program (1132)\n"),
+        text.contains("data: tests.csv (3), tests of the program (1132)\n"),
         "{text}"
     );
     assert!(
@@ -121,8 +121,8 @@ fn the_programs_own_shots_can_be_added() {
     );
 }
 
-fn refused(shots: &str, arguments: &[&str]) -> String {
-    let folder = folder_with(shots);
+fn refused(tests: &str, arguments: &[&str]) -> String {
+    let folder = folder_with(tests);
     let Said {
         code,
         stdout,
@@ -139,38 +139,38 @@ fn refused(shots: &str, arguments: &[&str]) -> String {
 
 #[test]
 fn wrong_files_are_refused_with_place_and_remedy() {
-    let file = ["--data", "shots.csv"];
-    for (shots, parts) in [
+    let file = ["--data", "tests.csv"];
+    for (tests, parts) in [
         (
-            SHOTS.replace("diameter_mm,", "").replace(",7.62", ""),
+            TESTS.replace("diameter_mm,", "").replace(",7.62", ""),
             ["the first line lacks `diameter_mm`", "required are `id`"],
         ),
         (
-            SHOTS.replace(",123,rigid-wall,19", ",fast,rigid-wall,19"),
-            ["`fast` is no number", "shots.csv:3:"],
+            TESTS.replace(",123,rigid-wall,19", ",fast,rigid-wall,19"),
+            ["`fast` is no number", "tests.csv:3:"],
         ),
         (
-            SHOTS.replace("two,my <lab> & co,taylor", "two,my <lab> & co,tailor"),
+            TESTS.replace("two,my <lab> & co,taylor", "two,my <lab> & co,tailor"),
             ["`tailor` is no kind", "did you mean `taylor`?"],
         ),
         (
-            SHOTS.replace(
+            TESTS.replace(
                 "two,my <lab> & co,taylor,copper",
                 "two,my <lab> & co,taylor,coper",
             ),
-            ["no material is named `coper`", "shots.csv:3:"],
+            ["no material is named `coper`", "tests.csv:3:"],
         ),
         (
-            SHOTS.replace("two,", "one,"),
-            ["a second test is named `one`", "shots.csv:3:"],
+            TESTS.replace("two,", "one,"),
+            ["a second test is named `one`", "tests.csv:3:"],
         ),
         (
-            SHOTS.replace("id,", "ID,"),
+            TESTS.replace("id,", "ID,"),
             ["no column is named `ID`", "did you mean `id`?"],
         ),
         (String::new(), ["the first line lacks", "help: "]),
     ] {
-        let stderr = refused(&shots, &file);
+        let stderr = refused(&tests, &file);
         assert!(!stderr.contains("key:"), "{stderr}");
         for part in parts {
             assert!(stderr.contains(part), "{part:?} is not in:\n{stderr}");
@@ -180,13 +180,13 @@ fn wrong_files_are_refused_with_place_and_remedy() {
 
 #[test]
 fn wrong_arguments_are_refused() {
-    assert!(refused(SHOTS, &["--model", "chian"]).contains("chain"));
-    assert!(refused(SHOTS, &["--kind", "tailor"]).contains("taylor"));
-    let empty = refused(SHOTS, &["--data", "shots.csv", "--kind", "depth"]);
+    assert!(refused(TESTS, &["--model", "chian"]).contains("chain"));
+    assert!(refused(TESTS, &["--kind", "tailor"]).contains("taylor"));
+    let empty = refused(TESTS, &["--data", "tests.csv", "--kind", "depth"]);
     assert!(empty.contains("no test of kind depth"), "{empty}");
-    let twice = refused(SHOTS, &["--data", "shots.csv", "--data", "shots.csv"]);
+    let twice = refused(TESTS, &["--data", "tests.csv", "--data", "tests.csv"]);
     assert!(twice.contains("a test with the id `one`"), "{twice}");
-    let folder = folder_with(SHOTS);
+    let folder = folder_with(TESTS);
     let missing = percuss(folder.path(), ["validate", "--data", "none.csv"]);
     assert_eq!(missing.code, 4);
     assert!(
@@ -198,7 +198,7 @@ fn wrong_arguments_are_refused() {
     );
     assert!(
         !missing.stderr.contains("percuss new"),
-        "a file of shots is no case: {}",
+        "a file of tests is no case: {}",
         missing.stderr
     );
 }

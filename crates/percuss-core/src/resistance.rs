@@ -26,7 +26,7 @@ pub trait ResistanceLaw {
 ///     }
 /// }
 ///
-/// let mut scenario = case::load_str("shot", "
+/// let mut scenario = case::load_str("case", "
 ///     projectile = { material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '230 m/s' }
 ///     target = { material = 'aluminium-2024-t351', thickness = '25 mm' }
 /// ")?;

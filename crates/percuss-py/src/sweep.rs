@@ -51,9 +51,9 @@ impl Sweep {
         Ok(Self { sweep, path, laws })
     }
 
-    /// Number of shots.
+    /// Number of runs.
     #[getter]
-    fn shots(&self) -> u64 {
+    fn runs(&self) -> u64 {
         self.sweep.runs()
     }
 
@@ -171,7 +171,7 @@ pub fn compute_sweep(
     let blocks = folder.missing(part, parts);
     let due: u64 = blocks
         .iter()
-        .map(|block| folder.manifest().shots_in(*block))
+        .map(|block| folder.manifest().runs_in(*block))
         .sum();
     let computed = run_monitored(py, progress.as_ref(), |progress_state| {
         let done = AtomicU64::new(0);
@@ -179,7 +179,7 @@ pub fn compute_sweep(
             let done = done.fetch_add(rows.len() as u64, Ordering::Relaxed) + rows.len() as u64;
             // Whether to go on is asked of the progress_state by the folder itself.
             let _ = progress_state
-                .on_progress(done as f64 / due as f64, &format!("{done} of {due} shots"));
+                .on_progress(done as f64 / due as f64, &format!("{done} of {due} runs"));
         };
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads.unwrap_or(0))

@@ -163,7 +163,7 @@ def test_a_scheduler_that_is_lost_is_said_and_the_sweep_goes_on(
         assert seen and str(lost.value)
         client.close(timeout=1)
         rows = percuss.SweepResult(tmp_path / "rows")
-        assert 0 < rows.status.shots_done < 24
+        assert 0 < rows.status.runs_done < 24
         # A new scheduler under the same address, a new worker: what is there is not computed again.
         running += [scheduler(), start("dask_worker", *worker)]
         with Client(address, timeout=60) as client:

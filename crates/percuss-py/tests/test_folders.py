@@ -43,8 +43,8 @@ CALLS: dict[str, tuple[Callable[[Path], list[str]], Call]] = {
         lambda _, out: percuss.compare(TAYLOR, model="taylor", velocity=[150, 190], out=out),
     ),
     "limit": (
-        lambda at: ["limit", PLATE, "--model", "plugging", "--points", "2", "--shots", f"{at}/shots.csv"],
-        lambda at, out: percuss.limit(PLATE, model="plugging", points=2, shots=at / "shots.csv", out=out),
+        lambda at: ["limit", PLATE, "--model", "plugging", "--points", "2", "--tests", f"{at}/tests.csv"],
+        lambda at, out: percuss.limit(PLATE, model="plugging", points=2, tests=at / "tests.csv", out=out),
     ),
     "converge": (
         lambda at: ["converge", f"{at}/taylor-copper-wilkins.toml", "--levels", "3"],
@@ -88,7 +88,7 @@ def contents(folder: Path) -> dict[str, bytes]:
 
 @pytest.mark.parametrize("what", CALLS)
 def test_a_folder_is_that_of_the_program(what: str, program: Program, tmp_path: Path) -> None:
-    (tmp_path / "shots.csv").write_text("impact_velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
+    (tmp_path / "tests.csv").write_text("impact_velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
     (tmp_path / "reference.csv").write_text(REFERENCE)
     words, call = CALLS[what]
     # Reports name the command that wrote them: both write to a folder of the same name.
@@ -188,3 +188,17 @@ def test_the_reference_is_computed_where_it_lacks(tmp_path: Path) -> None:
         percuss.benchmark(compute=True)
     with pytest.raises(percuss.UsageError, match="--compute"):
         percuss.benchmark(cells=4)
+
+
+def test_figures_have_the_formats_that_are_asked_for(tmp_path: Path) -> None:
+    def suffixes(figures: str | list[str] | None) -> set[str]:
+        result = percuss.run("cases/taylor-copper-wilkins/scenario.toml", out=tmp_path / "out", figures=figures, progress=False)
+        return {file.suffix for file in result.files} & {".svg", ".png", ".pdf"}
+
+    assert suffixes(None) == {".svg", ".png"}
+    assert suffixes(["pdf"]) == suffixes("pdf") == {".pdf"}
+    assert suffixes([]) == suffixes("none") == set()
+    with pytest.raises(percuss.UsageError, match="svg, png, pdf"):
+        suffixes("tiff")
+    with pytest.raises(percuss.UsageError, match="--out"):
+        percuss.converge("cases/taylor-copper-wilkins/scenario.toml", figures="pdf")

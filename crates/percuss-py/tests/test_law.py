@@ -227,7 +227,7 @@ def test_what_a_law_raises_ends_a_study_without_a_row(tmp_path: Path) -> None:
 
     with pytest.raises(ZeroDivisionError, match="a mistake in the law"):
         percuss.sweep(varied(case), tmp_path / "rows", projectile_law=law)
-    assert percuss.SweepResult(tmp_path / "rows").status.shots_done == 0
+    assert percuss.SweepResult(tmp_path / "rows").status.runs_done == 0
     with pytest.raises(ZeroDivisionError, match="a mistake in the law"):
         percuss.uncertainty(uncertain(case), model="chain", samples=16, no_indices=True, projectile_law=law)
 

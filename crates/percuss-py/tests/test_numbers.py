@@ -137,9 +137,9 @@ def test_every_command_gives_the_answer_of_the_program(program: Program, tmp_pat
     with pytest.raises(percuss.ReadError):
         percuss.import_materials(tmp_path / "gone.k", units="mm-t-s")
 
-    shots = tmp_path / "shots.csv"
-    shots.write_text("impact_velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
-    assert percuss.limit(shots=shots).to_dict() == answer(program, "limit", "--shots", str(shots))
+    tests = tmp_path / "tests.csv"
+    tests.write_text("impact_velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
+    assert percuss.limit(tests=tests).to_dict() == answer(program, "limit", "--tests", str(tests))
 
     assert percuss.converge(case, levels=3).to_dict() == answer(program, "converge", case, "--levels", "3")
     validated = percuss.validate(model="taylor", kind="taylor")

@@ -35,16 +35,16 @@ def records(tmp_path_factory: pytest.TempPathFactory) -> dict[type[Record], list
     spread = percuss.load(case.parents[1] / "paper-table1-uncertainty/scenario.toml")
     spread = spread.replace({"chain.projectile_elements": 8, "chain.target_elements": 12})
     law = "materials.copper-woodward.strength.power_law"
-    folder = tmp_path_factory.mktemp("shots")
-    shots, reference = folder / "shots.csv", folder / "reference.csv"
+    folder = tmp_path_factory.mktemp("tests")
+    tests, reference = folder / "tests.csv", folder / "reference.csv"
     reference.write_text(REFERENCE)
-    shots.write_text("impact_velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
+    tests.write_text("impact_velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n190,yes\n178,no\n")
     coefficient = {f"{law}.coefficient": "150..900 MPa"}
     copper: dict[str, Any] = {"data": "builtin", "source": "wilkins1973", "model": "wilkins_guinan"}
     return {
         percuss.RunResult: [percuss.run(case), percuss.run(wall, "taylor", history=False)],
         percuss.Comparison: [percuss.compare(case), percuss.compare(case, velocity="200..400:3")],
-        percuss.Limits: [percuss.limit(plate, model=["plugging", "recht_ipson", "tate"], shots=shots)],
+        percuss.Limits: [percuss.limit(plate, model=["plugging", "recht_ipson", "tate"], tests=tests)],
         percuss.Convergence: [percuss.converge(wall, levels=3)],
         percuss.Validation: [percuss.validate(model="taylor", kind="taylor")],
         percuss.Uncertainty: [percuss.uncertainty(spread, samples=16, velocity=[150, 230])],
@@ -144,9 +144,9 @@ def test_lists_are_tables() -> None:
 
 
 def test_what_was_not_asked_for_is_not_drawn(tmp_path: Path) -> None:
-    shots = tmp_path / "shots.csv"
-    shots.write_text("impact_velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n")
-    limits = percuss.limit(shots=shots)
+    tests = tmp_path / "tests.csv"
+    tests.write_text("impact_velocity_m_s,perforated\n180,no\n186,yes\n184,no\n183,yes\n")
+    limits = percuss.limit(tests=tests)
     assert limits.to_pandas().empty and limits.plot_v50().lines
     with pytest.raises(ValueError, match="no case was searched"):
         limits.plot()

@@ -150,7 +150,7 @@ def test_a_calibration_is_that_of_the_program(program: Program, tmp_path: Path) 
 
 
 def test_cases_and_priors_in_code_are_those_of_files(program: Program, tmp_path: Path) -> None:
-    shots = [
+    runs = [
         percuss.Case(
             f"shot-{i}",
             projectile={"material": "copper", "length": "23.47 mm", "diameter": "7.62 mm", "impact_velocity": velocity},
@@ -162,13 +162,13 @@ def test_cases_and_priors_in_code_are_those_of_files(program: Program, tmp_path:
     key = "taylor.dynamic_yield_stress"
     prior = {"normal": {"mean": "400 MPa", "standard_deviation": "200 MPa", "min": "50 MPa"}}
     (tmp_path / "fit.toml").write_text(percuss._percuss.toml_text({"parameter": [{"key": key, **prior}]}))
-    for shot in shots:
+    for shot in runs:
         shot.save(tmp_path / f"{shot.name}.toml")
-    line = ["calibrate", *(str(tmp_path / f"{shot.name}.toml") for shot in shots), "--fit", str(tmp_path / "fit.toml")]
+    line = ["calibrate", *(str(tmp_path / f"{shot.name}.toml") for shot in runs), "--fit", str(tmp_path / "fit.toml")]
     theirs = answer(program, *line, "--model", "taylor", "--noise", "2 %", "--least-squares")
     for fit in ({key: prior}, tmp_path / "fit.toml"):
         for noise in ("2 %", 0.02):
-            ours = percuss.calibrate(shots, fit=fit, model="taylor", noise=noise, least_squares=True)
+            ours = percuss.calibrate(runs, fit=fit, model="taylor", noise=noise, least_squares=True)
             assert ours.to_dict() == theirs
     assert ours.parameter("dynamic_yield_stress") == ours.parameter() and ours.materials.keys() == []
     with pytest.raises(ValueError, match="was not sampled"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import hashlib
 import json
 from pathlib import Path
@@ -47,9 +48,9 @@ def test_a_sweep_is_that_of_the_program(program: Program, tmp_path: Path) -> Non
     heard: list[float] = []
     rows = percuss.sweep(path, tmp_path / "python", threads=1, progress=lambda part, _: heard.append(part))
     assert contents(tmp_path / "cli") == contents(tmp_path / "python")
-    assert rows.complete and rows.status.shots_done == 24 and len(rows.files()) == 6
+    assert rows.complete and rows.status.runs_done == 24 and len(rows.files()) == 6
     assert rows.to_arrow().num_rows == 24
-    assert rows.to_pandas()["shot"].tolist() == list(range(24))
+    assert rows.to_pandas()["run"].tolist() == list(range(24))
     assert rows.merge(tmp_path / "all.parquet") == 24
     assert program("sweep", "merge", tmp_path / "cli", "--out", tmp_path / "cli.parquet").returncode == 0
     assert (tmp_path / "all.parquet").read_bytes() == (tmp_path / "cli.parquet").read_bytes()
@@ -90,6 +91,24 @@ def test_parts_resume_and_merge(program: Program, tmp_path: Path) -> None:
     assert contents(tmp_path / "whole") == before
     with pytest.raises(percuss.UsageError, match="3/2"):
         percuss.sweep(path, tmp_path / "none", shard=(3, 2))
+
+
+def test_a_sweep_needs_no_folder(tmp_path: Path) -> None:
+    path = sweep_file(tmp_path)
+    rows = percuss.sweep(path)
+    folder = rows.folder
+    kept = percuss.sweep(path, tmp_path / "kept")
+    assert rows.complete and rows.to_arrow().equals(kept.to_arrow())
+    # The rows outlive the folder, which goes with the result.
+    table = rows.to_pandas()
+    del rows
+    gc.collect()
+    assert not folder.exists() and len(table) == 24
+    for more in ({"resume": True}, {"shard": (1, 2)}):
+        with pytest.raises(percuss.UsageError, match="give `out`"):
+            percuss.sweep(path, **more)
+    with pytest.raises(percuss.CaseError):
+        percuss.sweep({"base": "none.toml"})
 
 
 def test_a_mapping_is_a_sweep_file(program: Program, tmp_path: Path) -> None:

@@ -86,7 +86,7 @@ def test_results_become_datasets(run: percuss.RunResult, tmp_path: Path) -> None
     assert models.model.to_numpy().tolist() == ["chain", "taylor"] and "depth_of_penetration_mm" in models
     speeds = {"key": "projectile.impact_velocity", "values": ["200 m/s", "230 m/s"]}
     rows = percuss.sweep({"base": percuss.load(CASE), "model": "chain", "design": "grid", "parameter": [speeds]}, tmp_path / "rows").to_xarray()
-    assert rows.impact_velocity_m_s.to_numpy().tolist() == [200.0, 230.0] and list(rows.coords) == ["shot"]
+    assert rows.impact_velocity_m_s.to_numpy().tolist() == [200.0, 230.0] and list(rows.coords) == ["run"]
 
 
 @pytest.mark.parametrize("name", ["pandas", "pyarrow", "xarray", "matplotlib"])

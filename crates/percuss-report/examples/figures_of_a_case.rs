@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("outcome: {}", result.outcome.describe());
     let start = Instant::now();
     for figure in percuss_report::run_figures(&scenario, &result)? {
-        let files = figure.write(folder)?;
+        let files = figure.write(folder, percuss_report::FigureFormat::DEFAULT)?;
         let files: Vec<String> = files
             .iter()
             .map(|file| file.display().to_string())

@@ -1,6 +1,7 @@
 //! A figure: an SVG drawing, its name and caption.
 
 use std::{
+    borrow::Cow,
     path::{Path, PathBuf},
     sync::atomic::{AtomicUsize, Ordering},
 };
@@ -11,6 +12,49 @@ use crate::{ReportError, replace_file::replace_file};
 
 /// The kind of pictures that pages in Markdown show.
 pub const IN_PAGES: &str = if cfg!(feature = "png") { "png" } else { "svg" };
+
+/// Kind of file of a figure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FigureFormat {
+    /// Lines, areas and texts, for pages.
+    Svg,
+    /// Pixels: two per SVG user unit, 240 per inch.
+    #[cfg(feature = "png")]
+    Png,
+    /// Lines, areas and outlines of texts, for print: 0.6 points per SVG user unit.
+    #[cfg(feature = "png")]
+    Pdf,
+}
+
+impl FigureFormat {
+    /// All formats of this build.
+    pub const ALL: &[Self] = &[
+        Self::Svg,
+        #[cfg(feature = "png")]
+        Self::Png,
+        #[cfg(feature = "png")]
+        Self::Pdf,
+    ];
+
+    /// What is written where nothing else is asked for.
+    pub const DEFAULT: &[Self] = &[
+        Self::Svg,
+        #[cfg(feature = "png")]
+        Self::Png,
+    ];
+
+    /// End of the file's name.
+    pub fn suffix(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            #[cfg(feature = "png")]
+            Self::Png => "png",
+            #[cfg(feature = "png")]
+            Self::Pdf => "pdf",
+        }
+    }
+}
 
 /// A finished drawing.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,17 +68,31 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Writes `NAME.svg` and, in a build with the feature `png`, `NAME.png` to a folder, which is made if it does not exist. Files of these
-    /// names are replaced.
+    /// Writes files of these formats, such as `NAME.svg`, to a folder, which is made if it does not exist. Files of these names are replaced.
     ///
     /// # Errors
     /// [`ReportError::Write`]; [`ReportError::Figure`].
-    pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, ReportError> {
-        let svg = format!("{}.svg", self.name);
-        let written = vec![replace_file(folder, &svg, self.svg.as_bytes())?];
-        #[cfg(feature = "png")]
-        let written = [written, vec![self.write_for_page(folder)?]].concat();
-        Ok(written)
+    pub fn write(
+        &self,
+        folder: &Path,
+        formats: &[FigureFormat],
+    ) -> Result<Vec<PathBuf>, ReportError> {
+        let files = formats.iter().map(|format| {
+            let name = format!("{}.{}", self.name, format.suffix());
+            replace_file(folder, &name, &self.file(*format)?)
+        });
+        files.collect()
+    }
+
+    /// Content of a file.
+    fn file(&self, format: FigureFormat) -> Result<Cow<'_, [u8]>, ReportError> {
+        Ok(match format {
+            FigureFormat::Svg => Cow::Borrowed(self.svg.as_bytes()),
+            #[cfg(feature = "png")]
+            FigureFormat::Png => Cow::Owned(self.png()?),
+            #[cfg(feature = "png")]
+            FigureFormat::Pdf => Cow::Owned(self.pdf()?),
+        })
     }
 
     /// Writes the picture that pages in Markdown show.
@@ -43,10 +101,14 @@ impl Figure {
     /// [`ReportError::Write`]; [`ReportError::Figure`].
     pub fn write_for_page(&self, folder: &Path) -> Result<PathBuf, ReportError> {
         #[cfg(feature = "png")]
-        let picture = &self.png()?;
+        let format = FigureFormat::Png;
         #[cfg(not(feature = "png"))]
-        let picture = self.svg.as_bytes();
-        replace_file(folder, &format!("{}.{IN_PAGES}", self.name), picture)
+        let format = FigureFormat::Svg;
+        replace_file(
+            folder,
+            &format!("{}.{IN_PAGES}", self.name),
+            &self.file(format)?,
+        )
     }
 }
 
@@ -58,13 +120,14 @@ impl Figure {
 pub fn write_figures(
     folder: &Path,
     figures: &[Figure],
+    formats: &[FigureFormat],
     finished: &(dyn Fn(usize, &str) + Sync),
 ) -> Result<Vec<PathBuf>, ReportError> {
     let done = AtomicUsize::new(0);
     let written: Vec<_> = figures
         .par_iter()
         .map(|figure| {
-            let files = figure.write(folder);
+            let files = figure.write(folder, formats);
             finished(done.fetch_add(1, Ordering::Relaxed) + 1, &figure.name);
             files
         })

@@ -1,7 +1,7 @@
 //! Figures, tables and files of results of `percuss`.
 //!
-//! [`run_figures()`] draws a result that holds a time history, each figure as SVG and PNG; [`write_histories`] writes the
-//! history itself as CSV and Parquet. PNG and Parquet are the features `png` and `parquet`, both on by default. [`LineChart`], [`AreaChart`] and [`HeatMap`] give other figures the same looks.
+//! [`run_figures()`] draws a result that holds a time history, each figure as SVG, PNG or PDF; [`write_histories`] writes the
+//! history itself as CSV and Parquet. PNG and PDF are the feature `png`, Parquet is `parquet`, both on by default. [`LineChart`], [`AreaChart`] and [`HeatMap`] give other figures the same looks.
 //! Text in a PNG is set in DejaVu Sans, which is built in: a machine without fonts draws the same picture.
 //!
 //! ```
@@ -16,7 +16,7 @@
 //!
 //! let folder = std::env::temp_dir().join("percuss-report-example");
 //! for figure in percuss_report::run_figures(&scenario, &result)? {
-//!     let files = figure.write(&folder)?;
+//!     let files = figure.write(&folder, percuss_report::FigureFormat::DEFAULT)?;
 //!     println!("{}: {}", files[0].display(), figure.title);
 //! }
 //! percuss_report::write_histories(&folder, &result, None)?;
@@ -63,6 +63,8 @@ mod names;
 pub mod page;
 pub mod palette;
 #[cfg(feature = "png")]
+mod pdf;
+#[cfg(feature = "png")]
 mod pixels;
 #[cfg(feature = "png")]
 mod png_file;
@@ -95,7 +97,7 @@ pub use error::ReportError;
 #[cfg(feature = "png")]
 pub use field::{FieldColors, FieldSpan, FieldView, animate, usual_range};
 pub use field::{FieldQuantity, FieldSeries, FinalField, FrameSelection};
-pub use figure::{Figure, write_figures};
+pub use figure::{Figure, FigureFormat, write_figures};
 pub use flow_figure::{FlowCurve, flow_figure};
 pub use fragment_files::write_fragments;
 pub use heat_map::HeatMap;

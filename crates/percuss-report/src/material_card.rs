@@ -354,7 +354,7 @@ fn provenance(material: &Material, card: &mut MaterialCard) {
         card.row("from the record", &calibrated.from);
         card.row("with the model", &calibrated.model);
         card.row("on", &calibrated.sources.join(", "));
-        card.row("measured values", &calibrated.shots.len().to_string());
+        card.row("measured values", &calibrated.tests.len().to_string());
         let by = format!(
             "percuss {}, seed {}",
             calibrated.percuss_version, calibrated.seed

@@ -7,17 +7,17 @@ use crate::{Series, Style, caption::significant, palette};
 /// Relative difference of impact speeds that are one.
 const SAME_SPEED: f64 = 1e-3;
 
-/// A line a measured value of a quantity, with a band as wide as it may be off: of shots at the speed of the case.
+/// A line a measured value of a quantity, with a band as wide as it may be off: of tests at the speed of the case.
 pub(crate) fn lines(scenario: &Scenario, quantity: BandQuantity, history: &History) -> Vec<Series> {
     let (Some(first), Some(last)) = (history.samples.first(), history.samples.last()) else {
         return Vec::new();
     };
     let speed = scenario.impact_velocity;
-    let of_this_shot = scenario.experiments.iter().filter(|measured| {
+    let of_this_test = scenario.experiments.iter().filter(|measured| {
         let same = |at: f64| (at - speed).abs() <= SAME_SPEED * speed;
         measured.quantity == quantity && measured.impact_velocity.is_some_and(same)
     });
-    of_this_shot
+    of_this_test
         .map(|measured| {
             let value = quantity.in_unit(measured.value);
             let error = measured.uncertainty.map(|error| quantity.in_unit(error));
@@ -46,19 +46,19 @@ mod tests {
 
     #[test]
     fn lines_are_those_of_the_same_quantity_and_speed() {
-        let shot = |speed: u32, more: &str| {
+        let test = |speed: u32, more: &str| {
             format!("[[experiments]]\nimpact_velocity = \"{speed} m/s\"\nsource = \"a\"\n{more}\n")
         };
         let text = [
             "projectile = { material = \"copper\", length = \"20 mm\", diameter = \"5 mm\", impact_velocity = \"200 m/s\" }\n",
             "target = { rigid_wall = true }\n",
-            &shot(
+            &test(
                 200,
                 "projectile_final_length = \"15 mm\"\nuncertainty = \"0.5 mm\"",
             ),
-            &shot(300, "projectile_final_length = \"12 mm\""),
+            &test(300, "projectile_final_length = \"12 mm\""),
         ];
-        let scenario = case::load_str("shot", &text.concat()).unwrap();
+        let scenario = case::load_str("case", &text.concat()).unwrap();
         let chain = model::model("chain").unwrap();
         let run = model::run(chain, &scenario, &mut model::Control::recording()).unwrap();
         let history = run.history.unwrap();

@@ -52,7 +52,8 @@ pub(crate) fn draw_over(pixels: &mut Pixmap, svg: &str, scale: f32) -> Result<()
     Ok(())
 }
 
-fn tree(name: &str, svg: &str) -> Result<Tree, ReportError> {
+/// Reads a drawing with the built-in fonts.
+pub(crate) fn tree(name: &str, svg: &str) -> Result<Tree, ReportError> {
     let options = Options {
         fontdb: fonts(),
         font_family: "DejaVu Sans".to_owned(),

@@ -1,9 +1,14 @@
 //! Pictures as PNG files.
 
-use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter};
+use png::{
+    BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter, PixelDimensions, Unit,
+};
 use resvg::tiny_skia::Pixmap;
 
 use crate::ReportError;
+
+/// Pixels per metre: 240 per inch, so that a figure is as wide as its PDF file.
+const PER_METRE: u32 = 9449;
 
 /// The PNG file of an opaque picture; an error names it.
 ///
@@ -24,6 +29,11 @@ pub(crate) fn encode(name: &str, picture: &Pixmap) -> Result<Vec<u8>, ReportErro
     encoder.set_depth(BitDepth::Eight);
     encoder.set_deflate_compression(DeflateCompression::Level(1));
     encoder.set_filter(Filter::Up);
+    encoder.set_pixel_dims(Some(PixelDimensions {
+        xppu: PER_METRE,
+        yppu: PER_METRE,
+        unit: Unit::Meter,
+    }));
     let mut writer = encoder.write_header().map_err(failure)?;
     writer.write_image_data(&colors).map_err(failure)?;
     writer.finish().map_err(failure)?;

@@ -8,7 +8,7 @@ use crate::{Axis, Figure, LineChart, Mark, Series, Style, caption::significant, 
 const POINTS: u32 = 200;
 
 /// Draws tests, the maximum-likelihood probability of perforation, and V50 with its interval, as `v50`.
-pub fn v50_figure(name: &str, shots: &[Test], v50: &V50) -> Figure {
+pub fn v50_figure(name: &str, tests: &[Test], v50: &V50) -> Figure {
     let mut chart = LineChart::new(
         "v50",
         format!("Partial and complete penetrations: {name}"),
@@ -16,12 +16,12 @@ pub fn v50_figure(name: &str, shots: &[Test], v50: &V50) -> Figure {
         Axis::new("Probability of perforation").range(-0.05, 1.05),
     )
     .caption(caption(v50));
-    let (slowest, fastest) = shots
+    let (slowest, fastest) = tests
         .iter()
-        .fold((f64::MAX, f64::MIN), |(low, high), shot| {
+        .fold((f64::MAX, f64::MIN), |(low, high), test| {
             (
-                low.min(shot.impact_velocity),
-                high.max(shot.impact_velocity),
+                low.min(test.impact_velocity),
+                high.max(test.impact_velocity),
             )
         });
     let margin = 0.15 * (fastest - slowest);
@@ -46,10 +46,10 @@ pub fn v50_figure(name: &str, shots: &[Test], v50: &V50) -> Figure {
         ("complete penetration", true, palette::SERIES[1]),
         ("partial penetration", false, palette::SERIES[2]),
     ] {
-        let kind = shots.iter().filter(|shot| shot.perforated == perforated);
+        let kind = tests.iter().filter(|test| test.perforated == perforated);
         let height = f64::from(u8::from(perforated));
         chart = chart.series(
-            Series::new(words, kind.map(|shot| (shot.impact_velocity, height)))
+            Series::new(words, kind.map(|test| (test.impact_velocity, height)))
                 .style(Style::Markers)
                 .color(color),
         );

@@ -7,7 +7,7 @@ use parquet::{
     record::Field,
 };
 use percuss::{Scenario, case, model, outcome::RunResult};
-use percuss_report::{Figure, ReportError, run_figures, write_histories};
+use percuss_report::{Figure, FigureFormat, ReportError, run_figures, write_histories};
 use resvg::{tiny_skia::Pixmap, usvg};
 
 const PLATE: &str = r#"
@@ -148,7 +148,7 @@ fn figures_are_written_as_svg_and_png_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path().join("made/on/demand");
     for _ in 0..2 {
-        let [svg, png] = &figure.write(&folder).unwrap()[..] else {
+        let [svg, png] = &figure.write(&folder, FigureFormat::DEFAULT).unwrap()[..] else {
             panic!("two files")
         };
         assert_eq!(std::fs::read_to_string(svg).unwrap(), figure.svg);
@@ -156,8 +156,21 @@ fn figures_are_written_as_svg_and_png_and_nothing_else() {
     }
     assert_eq!(folder.read_dir().unwrap().count(), 2);
     let blocked = folder.join("length-time.svg");
-    let error = figure.write(&blocked).unwrap_err();
+    let error = figure.write(&blocked, FigureFormat::DEFAULT).unwrap_err();
     assert!(error.to_string().contains("length-time.svg"), "{error}");
+}
+
+#[test]
+fn every_figure_of_a_run_has_a_pdf_file() {
+    for case in [TAYLOR, PLATE, EROSION] {
+        let (scenario, result) = run(case);
+        let folder = tempfile::tempdir().unwrap();
+        for figure in run_figures(&scenario, &result).unwrap() {
+            let files = figure.write(folder.path(), &[FigureFormat::Pdf]).unwrap();
+            let file = std::fs::read(&files[0]).unwrap();
+            assert!(file.starts_with(b"%PDF-") && files.len() == 1, "{figure:?}");
+        }
+    }
 }
 
 #[test]

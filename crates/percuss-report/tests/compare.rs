@@ -12,7 +12,7 @@ use percuss::{
     regime::{ProjectileRegime, TargetKind},
     validity::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
-use percuss_report::{compare_figures, write_comparison};
+use percuss_report::{FigureFormat, compare_figures, write_comparison};
 
 /// A model that gives `scale` times a depth that grows with the speed.
 struct Fake {
@@ -158,7 +158,7 @@ fn every_model_with_a_value_has_its_line() {
     assert!(!figure.svg.contains("NaN"));
     let folder = tempfile::tempdir().unwrap();
     let folder = std::env::var_os("PERCUSS_FIGURES").map_or(folder.path().to_owned(), Into::into);
-    for file in figure.write(&folder).unwrap() {
+    for file in figure.write(&folder, FigureFormat::DEFAULT).unwrap() {
         assert!(fs::metadata(file).unwrap().len() > 1000);
     }
 }
@@ -175,7 +175,7 @@ fn one_velocity_gives_one_row_per_model() {
     let folder = std::env::var_os("PERCUSS_FIGURES").map_or(folder.path().to_owned(), |path| {
         std::path::Path::new(&path).join("one")
     });
-    figure.write(&folder).unwrap();
+    figure.write(&folder, FigureFormat::DEFAULT).unwrap();
     // Without a value of any model there is nothing to draw.
     let wall = CASE.replace(
         "material = 'aluminium-2024-t351', thickness = 'semi-infinite'",

@@ -8,7 +8,7 @@ use percuss::{
     units::significant,
 };
 use percuss_report::{
-    Axis, Figure, LineChart, ReportError, Series, Style,
+    Axis, Figure, FigureFormat, LineChart, ReportError, Series, Style,
     column::{self, Column},
     palette,
     replace_file::replace_file,
@@ -147,7 +147,7 @@ impl DampingStudy {
         let mut written = vec![replace_file(folder, name, &table)?];
         let meshes = MESH_SPEEDS.map(|speed| self.meshes(speed));
         for figure in std::iter::once(self.speeds()).chain(meshes) {
-            written.extend(figure.write(folder)?);
+            written.extend(figure.write(folder, FigureFormat::DEFAULT)?);
         }
         Ok(written)
     }

@@ -114,7 +114,7 @@ fn set(table: &mut dyn TableLike, key: &str, value: Option<Value>) -> Option<()>
 mod tests {
     use super::*;
 
-    const CASE: &str = "# A shot.\n[projectile]\nimpact_velocity = \"230 m/s\" # measured\n\n[target]\nlayers = [\n  { thickness = \"1 mm\" },\n]\n";
+    const CASE: &str = "# A case.\n[projectile]\nimpact_velocity = \"230 m/s\" # measured\n\n[target]\nlayers = [\n  { thickness = \"1 mm\" },\n]\n";
 
     fn edited(text: &str, edits: &[(&str, Option<&str>)]) -> String {
         let edits: Vec<Edit> = edits

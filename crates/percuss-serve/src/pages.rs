@@ -71,18 +71,18 @@ impl Validation {
         events::respond(&workers, move |stop, events| {
             if report.0.get().is_none() {
                 let progress = |fraction: f64| {
-                    events.progress(fraction, "published shots");
+                    events.progress(fraction, "published tests");
                     match events.is_disconnected() {
                         true => ControlFlow::Break(()),
                         false => stop.flow(),
                     }
                 };
-                let shots = experiments::built_in();
+                let tests = experiments::built_in();
                 let (models, library) = (model::fast_models(), Library::built_in());
-                let validation = validate::run(&models, shots, library, &progress)
+                let validation = validate::run(&models, tests, library, &progress)
                     .map_err(|error| stop.problem(error))?;
                 let origin = Origin {
-                    files: vec![format!("the program's own ({})", shots.len())],
+                    files: vec![format!("the program's own ({})", tests.len())],
                     command: "percuss serve".to_owned(),
                 };
                 // Of two that compute at once the first one is kept: they are the same.

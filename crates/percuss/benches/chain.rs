@@ -63,11 +63,11 @@ fn side_by_side(criterion: &mut Criterion) {
         inputs: Vec::new(),
         scenario: Ok(paper(150.0 + 3.5 * f64::from(i), (40, 80), COLUMN)),
     };
-    let shots: Vec<SweepRun> = (0..64).map(shot).collect();
+    let runs: Vec<SweepRun> = (0..64).map(shot).collect();
     let mut group = criterion.benchmark_group("chain");
-    group.throughput(Throughput::Elements(shots.len() as u64));
-    group.bench_function("64 shots side by side, 40-80", |bencher| {
-        let rows = || BatchKernel::new(chain).rows(shots.clone(), &AtomicBool::new(false));
+    group.throughput(Throughput::Elements(runs.len() as u64));
+    group.bench_function("64 runs side by side, 40-80", |bencher| {
+        let rows = || BatchKernel::new(chain).rows(runs.clone(), &AtomicBool::new(false));
         bencher.iter(|| black_box(rows()));
     });
     group.finish();

@@ -9,8 +9,8 @@ use percuss::{
     outcome::RunResult,
 };
 
-/// Shots of every kind that some model is made for. Strength laws without rate, heat or length scale, so that scaling is exact.
-const SHOTS: &[(&str, &str, &[f64])] = &[
+/// Runs of every kind that some model is made for. Strength laws without rate, heat or length scale, so that scaling is exact.
+const RUNS: &[(&str, &str, &[f64])] = &[
     (
         "rigid steel sphere-nosed rod into aluminium",
         r#"projectile = { material = "tool", length = "70 mm", diameter = "7.1 mm", nose = "hemisphere", impact_velocity = "500 m/s" }
@@ -241,7 +241,7 @@ fn hold(identity: Identity, check: impl Fn(&dyn Model, &str, &[f64]) -> Result<u
             .iter()
             .find(|known| known.0 == model.name() && known.1 == identity);
         let mut failures = Vec::new();
-        for (what, text, speeds) in SHOTS {
+        for (what, text, speeds) in RUNS {
             match check(model, text, speeds) {
                 Ok(compared) => println!("{}: {what}: {compared} compared", model.name()),
                 Err(failure) => failures.push(format!("{}: {what}: {failure}", model.name())),
@@ -465,7 +465,7 @@ fn a_denser_projectile_goes_deeper() {
 #[test]
 fn every_model_applies_to_some_shot_and_says_why_not_to_the_others() {
     for model in model::fast_models() {
-        let applies = SHOTS.iter().any(|(_, text, speeds)| {
+        let applies = RUNS.iter().any(|(_, text, speeds)| {
             let base = shot(text);
             speeds
                 .iter()

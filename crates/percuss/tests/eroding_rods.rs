@@ -162,8 +162,8 @@ const CLOSURE: &str = "erosion_criterion = \"tate\"";
 /// The same mesh as by default, without the border shear that Tate has no counterpart of.
 const DEFAULT: &str = "border_shear = 0.0";
 
-fn shots() -> Vec<Shot> {
-    let mut shots = Vec::new();
+fn runs() -> Vec<Shot> {
+    let mut runs = Vec::new();
     for densities in [(STEEL, STEEL), (TUNGSTEN, STEEL), (LIGHT, STEEL)] {
         for constraint in [1.0, 4.0] {
             for speed in [1000.0, 1500.0, 2000.0, 2500.0, 3000.0] {
@@ -174,12 +174,12 @@ fn shots() -> Vec<Shot> {
                     length_to_diameter: 10,
                 };
                 if shot.rods().penetration_speed(speed) > 0.0 {
-                    shots.push(shot);
+                    runs.push(shot);
                 }
             }
         }
     }
-    shots
+    runs
 }
 
 /// Over one length of erosion Tate's tip slows the less the longer the rod is: the steady limit is L/D → ∞.
@@ -192,7 +192,7 @@ fn the_closure_meets_tate_in_the_limit_of_long_rods() {
     for length_to_diameter in [10, 20, 40] {
         // Largest differences of U and P/L: all that the limit holds for; steps within the tolerance; steps above it.
         let [mut all, mut small, mut large] = [[0.0_f64; 2]; 3];
-        for shot in shots() {
+        for shot in runs() {
             let shot = shot.with_length(length_to_diameter);
             let (speed, depth) = shot.closure_ratios(&shot.case_of_window(CLOSURE));
             let step = shot.wave_step();
@@ -270,7 +270,7 @@ fn the_speed_of_the_closures_tip_does_not_depend_on_the_mesh() {
 
 #[test]
 fn the_closures_whole_depth_is_near_tate() {
-    for shot in shots() {
+    for shot in runs() {
         // Near the threshold the entry, of the order of a diameter, is all there is.
         if shot.rods().penetration_speed(shot.speed) < 0.2 * shot.speed {
             continue;
@@ -285,7 +285,7 @@ fn the_closures_whole_depth_is_near_tate() {
 /// Without the resistance the chain is no more than near Tate: the ratios are reported, and bounded so that a change shows.
 #[test]
 fn the_chain_without_the_closure_is_near_tate() {
-    for shot in shots() {
+    for shot in runs() {
         // Nearer to the threshold the ratio says nothing: the tip stops before the window ends.
         if shot.rods().penetration_speed(shot.speed) < 0.2 * shot.speed {
             continue;

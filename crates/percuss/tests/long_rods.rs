@@ -110,7 +110,7 @@ fn all_of_them_apply_to_a_tungsten_rod_on_steel_and_agree_roughly() {
     for depth in [tate, walker, regression] {
         assert!(depth < limit);
     }
-    // A regression to shots, which knows nothing of these strengths: the two models are not tuned to it.
+    // A regression to runs, which knows nothing of these strengths: the two models are not tuned to it.
     assert!((tate / regression - 1.0).abs() < 0.4 && (walker / regression - 1.0).abs() < 0.4);
 }
 

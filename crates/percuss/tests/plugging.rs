@@ -153,7 +153,7 @@ fn weldox(speed: f64, elements: (u32, u32), chain: &str) -> Scenario {
     case::load_str("weldox", &text).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Middle of a bracket between shots that are stopped and shots that go through [m/s].
+/// Middle of a bracket between runs that are stopped and runs that go through [m/s].
 fn limit(within: f64, shot: impl Fn(f64) -> Scenario) -> f64 {
     let (mut low, mut high) = (40.0, 300.0);
     while high - low > within {
@@ -192,7 +192,7 @@ fn limit_and_residual_velocity_converge_with_the_mesh() {
 
 #[test]
 fn the_books_close_whatever_holds_the_plug() {
-    let shots = [
+    let runs = [
         ("", 90.0),
         ("dishing = true", 60.0),
         ("dishing = true", 108.0),
@@ -224,7 +224,7 @@ fn the_books_close_whatever_holds_the_plug() {
             200.0,
         ),
     ];
-    for (chain, speed) in shots {
+    for (chain, speed) in runs {
         let result = run(&weldox(speed, (20, 12), chain));
         println!(
             "{speed} m/s, {chain:?}: {:?}, residuals {:.1e} and {:.1e}",

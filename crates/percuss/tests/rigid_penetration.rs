@@ -83,7 +83,7 @@ fn nothing_goes_nowhere_at_zero_speed() {
 }
 
 #[test]
-fn slow_shots_go_as_deep_as_their_energy_over_the_force() {
+fn slow_runs_go_as_deep_as_their_energy_over_the_force() {
     for nose in NOSES {
         for model in ["forrestal", "cavity_expansion", "poncelet"] {
             let case = rod(nose, 1.0, "");

@@ -33,13 +33,13 @@ fn copper_rods_are_predicted_without_a_fit() {
     for material in ["copper", "ofhc-copper"] {
         for model in MODELS {
             let mut sum = 0.0;
-            let shots = [
+            let runs = [
                 (89.0, 21.01),
                 (123.0, 19.60),
                 (153.0, 18.31),
                 (183.0, 16.81),
             ];
-            for (velocity, measured) in shots {
+            for (velocity, measured) in runs {
                 let text = wilkins(velocity).replace("\"copper\"", &format!("\"{material}\""));
                 let result = run(model, &scenario(&text));
                 let length = result.projectile_final_length.unwrap() * 1e3;

@@ -17,6 +17,7 @@ use percuss_report::{
 use crate::{
     cost,
     failure::Failure,
+    figure_formats::FigureArgs,
     file_list::FileList,
     output,
     progress::Progress,
@@ -72,6 +73,8 @@ pub struct Converge {
     /// Write the study and its figures to a folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    figures: FigureArgs,
 }
 
 /// Result of the command and the files that it wrote.
@@ -134,7 +137,7 @@ impl Converge {
     ) -> Result<ConvergenceOutput, Failure> {
         let scenario = case::scenario(&virtual_files.read(&self.case)?)?;
         let model = model::model(&self.model)?;
-        let mut folder = RunFolder::wanted(self.out.as_deref(), None)?;
+        let mut folder = RunFolder::wanted(self.out.as_deref(), None, self.figures.formats())?;
         let meshes = (0..self.levels).filter_map(|level| model.refined(&scenario, 1 << level));
         tell(meshes.map(|mesh| cost::of_run(model, &mesh)).sum());
         let study = self.compute(model, &scenario, on_progress)?;

@@ -20,7 +20,7 @@ use crate::{
     progress::Progress,
     response::{ProgressCallback, Response},
     run_folder::make_folder,
-    shot_data, terminal, validation_table,
+    terminal, test_data, validation_table,
 };
 
 const LONG_ABOUT: &str = "\
@@ -141,11 +141,11 @@ impl Validate {
 
     fn find(&self, on_progress: ProgressCallback<'_>) -> Result<ValidationOutput, Failure> {
         let (models, library) = (self.models()?, self.library()?);
-        let (shots, data) = self.shots(&library)?;
+        let (tests, data) = self.tests(&library)?;
         if let Some(out) = &self.out {
             make_folder(out)?;
         }
-        let validation = self.compute(&models, &shots, &library, &mut *on_progress)?;
+        let validation = self.compute(&models, &tests, &library, &mut *on_progress)?;
         let mut files = Vec::new();
         if let Some(out) = &self.out {
             let origin = Origin {
@@ -186,27 +186,27 @@ impl Validate {
     }
 
     /// Tests with their sources.
-    fn shots(&self, library: &Library) -> Result<(Vec<Experiment>, Vec<String>), Failure> {
-        let built_in = [PathBuf::from(shot_data::BUILT_IN)];
+    fn tests(&self, library: &Library) -> Result<(Vec<Experiment>, Vec<String>), Failure> {
+        let built_in = [PathBuf::from(test_data::BUILT_IN)];
         let data = if self.data.is_empty() {
             &built_in[..]
         } else {
             &self.data
         };
-        shot_data::read(data, &self.kind, library)
+        test_data::read(data, &self.kind, library)
     }
 
     fn compute(
         &self,
         models: &[&'static dyn Model],
-        shots: &[Experiment],
+        tests: &[Experiment],
         library: &Library,
         on_progress: ProgressCallback<'_>,
     ) -> Result<Validation, Failure> {
         let on_progress = Mutex::new(on_progress);
         let words = format!(
             "{}, {}",
-            terminal::counted(shots.len(), "test"),
+            terminal::counted(tests.len(), "test"),
             terminal::counted(models.len(), "model")
         );
         let report = |fraction: f64| match on_progress.try_lock() {
@@ -214,7 +214,7 @@ impl Validate {
             // Another thread is reporting: this report is left out.
             Err(_) => ControlFlow::Continue(()),
         };
-        Ok(validate::run(models, shots, library, &report)?)
+        Ok(validate::run(models, tests, library, &report)?)
     }
 
     /// Command line that repeats this command.

@@ -16,7 +16,7 @@ pub struct Calibrated {
     /// Sources of the tests: validation does not count them as blind.
     pub sources: Vec<String>,
     /// The tests and cases.
-    pub shots: Vec<String>,
+    pub tests: Vec<String>,
     /// Version of the program.
     pub percuss_version: String,
     /// Seed of the random numbers.

@@ -249,7 +249,7 @@ mod tests {
     #[test]
     fn what_cannot_be_modelled_says_why() {
         let said = Library::built_in().suggestion("Dyneema");
-        for part in ["isotropic", "percuss limit --shots"] {
+        for part in ["isotropic", "percuss limit --tests"] {
             assert!(said.contains(part), "{said}");
         }
     }

@@ -2,10 +2,10 @@
 
 /// Layers of fibres.
 const FIBRES: &str = "layers of fibres fail by stretching and delaminating, and every model here takes the target as one isotropic solid; \
-    measured limits can still be fitted with `percuss limit --shots`";
+    measured limits can still be fitted with `percuss limit --tests`";
 /// Wood.
 const WOOD: &str = "the strength of wood depends on the direction of its grain and on moisture, and every model here takes the target as one \
-    isotropic solid; measured limits can still be fitted with `percuss limit --shots`";
+    isotropic solid; measured limits can still be fitted with `percuss limit --tests`";
 /// Grains.
 const GRAINS: &str = "soil compacts and flows as grains do, and no model here describes that";
 /// Liquids and jellies.

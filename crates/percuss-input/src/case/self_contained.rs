@@ -163,7 +163,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
         fs::create_dir(folder.path().join("lib")).unwrap();
-        write("shot.toml", &format!("{CASE}{own}"));
+        write("case.toml", &format!("{CASE}{own}"));
         let first = format!("[rod]\n{}\n[plate]\n{}", record("7850"), record("1000"));
         write("lib/a.toml", &first);
         write(
@@ -185,11 +185,11 @@ mod tests {
         let header = format!("[materials.other]\n{}", record("2000"));
         for own in ["", &header, &inline] {
             let folder = folder(own);
-            let document = Document::read(folder.path().join("shot.toml")).unwrap();
+            let document = Document::read(folder.path().join("case.toml")).unwrap();
             let text = self_contained(&document).unwrap();
             assert!(!text.contains("material_files"), "{text}");
             assert!(text.starts_with("# Two materials\n"), "{text}");
-            let alone = Document::new("shot", text.clone());
+            let alone = Document::new("case", text.clone());
             let (alone, whole) = (scenario(&alone), scenario(&document));
             let alone = alone.unwrap_or_else(|error| panic!("{error}\n{text}"));
             assert_eq!(alone, whole.unwrap(), "{text}");
@@ -206,12 +206,12 @@ mod tests {
     #[test]
     fn a_record_of_the_case_and_of_a_file_is_refused() {
         let folder = folder(&format!("[materials.rod]\n{}", record("2000")));
-        let error = Document::read(folder.path().join("shot.toml"))
+        let error = Document::read(folder.path().join("case.toml"))
             .and_then(|document| scenario(&document))
             .unwrap_err()
             .to_string();
         assert!(
-            error.contains("shot.toml:8: `materials.rod`")
+            error.contains("case.toml:8: `materials.rod`")
                 && error.contains("by the file `lib/a.toml`"),
             "{error}"
         );
@@ -221,6 +221,6 @@ mod tests {
     fn a_case_without_files_keeps_its_text() {
         let text = "# as it is\nprojectile = { material = 'copper' , length = '20 mm', diameter = '5 mm', impact_velocity = '300 m/s' }\n\
                     target = { rigid_wall = true }\n";
-        assert_eq!(self_contained(&Document::new("shot", text)).unwrap(), text);
+        assert_eq!(self_contained(&Document::new("case", text)).unwrap(), text);
     }
 }

@@ -55,7 +55,7 @@ class Benchmark(Result):
         return list(self._data["verdicts"])
 
     def errors(self, by: str | None = None) -> Records[Record]:
-        """Errors of every model, of all shots or by ``speed``, ``length``, ``regime``, ``materials`` or ``uncertainty`` of the reference."""
+        """Errors of every model, of all runs or by ``speed``, ``length``, ``regime``, ``materials`` or ``uncertainty`` of the reference."""
         if by is not None and by not in _GROUPINGS:
             raise UsageError(f"`{by}` groups no errors; groups: {', '.join(_GROUPINGS)}")
         grouping = "all" if by is None else _GROUPINGS[by]

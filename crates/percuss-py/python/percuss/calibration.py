@@ -8,7 +8,7 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from . import _percuss, study_plots
-from .command_line import CaseLike, Path, execute, several
+from .command_line import CaseLike, Path, execute, formats, several
 from .errors import UsageError
 from .progress import Progress
 from .record import Record, Result, shown, table_html
@@ -163,6 +163,7 @@ def calibrate(
     seed: int | None = None,
     name: str | None = None,
     out: Path | None = None,
+    figures: str | Sequence[str] | None = None,
     progress: Progress | bool | None = None,
 ) -> Calibration:
     """Calibrates material constants and model options against experiments.
@@ -200,6 +201,8 @@ def calibrate(
         Id of the calibrated material; the original id with ``-calibrated`` when not given.
     out : path, optional
         Folder for the numbers, the calibrated materials and the figures, as ``percuss calibrate --out`` writes them; made if it does not exist.
+    figures : str or sequence of str, optional
+        Formats of the figures in ``out``: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
     progress : callable or bool, optional
         As in :func:`percuss.run`.
 
@@ -248,6 +251,7 @@ def calibrate(
         seed=seed,
         name=name,
         out=out,
+        figures=formats(figures),
         progress=progress,
     )
     return Calibration(found)

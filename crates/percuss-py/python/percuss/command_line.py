@@ -69,6 +69,11 @@ def several(names: Any) -> list[Any]:
     return [names] if isinstance(names, (str, os.PathLike, Case)) else list(names)
 
 
+def formats(figures: str | Sequence[str] | None) -> str | None:
+    """Formats of figures as text of the command line."""
+    return figures if figures is None or isinstance(figures, str) else ",".join(figures) or "none"
+
+
 def speeds(speeds: Speed | Sequence[float] | None) -> str | None:
     """Velocities as text of the command line, with all digits."""
     if speeds is None or isinstance(speeds, str):

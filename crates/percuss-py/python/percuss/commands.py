@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
 
 from . import _percuss
-from .command_line import CaseLike, Path, Speed, answer, execute, several, speeds, with_unit
+from .command_line import CaseLike, Path, Speed, answer, execute, formats, several, speeds, with_unit
 from .case import Case, native
 from .errors import UsageError
 from .laws import StrengthLaw
@@ -24,6 +24,7 @@ def run(
     reference: str | None = None,
     history: bool = True,
     out: Path | None = None,
+    figures: str | Sequence[str] | None = None,
     field: str | None = None,
     fields: bool = False,
     animation: bool = False,
@@ -57,6 +58,8 @@ def run(
         Folder for a copy of the case, the result, the histories and the figures, as ``percuss run --out`` writes them; made if it does
         not exist. A model of two dimensions, which ``axi`` is, adds its fields at the end for ParaView (``field.vtp``) and a picture of
         one of them (``field.png``). ``result.files`` lists the files.
+    figures : str or sequence of str, optional
+        Formats of the figures in ``out``: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
     field : str, optional
         Field that the pictures show: ``plastic-strain`` (when not given), ``temperature``, ``von-mises-stress``, ``pressure``, ``speed``,
         ``density`` or ``damage``.
@@ -118,6 +121,7 @@ def run(
     if reference is not None and any(law is not None for law in laws):
         raise UsageError("`reference` needs laws of the library: leave it out, or add the law to the library")
     written: dict[str, Any] = {"field": field, "fields": fields, "animation": animation, "frames": frames, "resume": resume, "seeds": seeds, "units": units}
+    written["figures"] = formats(figures)
     if out is not None or checkpoint is not None or any(value not in (None, False) for value in written.values()):
         if any(law is not None for law in laws):
             raise UsageError("files can be written only for runs with laws of the library: leave out `out`, or add the law to the library")
@@ -144,6 +148,7 @@ def compare(
     reference: str | None = None,
     fast: bool = False,
     out: Path | None = None,
+    figures: str | Sequence[str] | None = None,
     units: str | None = None,
     progress: Progress | bool | None = None,
 ) -> Comparison:
@@ -164,6 +169,8 @@ def compare(
         Whether to leave ``axi`` out.
     out : path, optional
         Folder for a copy of the case, the numbers and the figure, as ``percuss compare --out`` writes them; made if it does not exist.
+    figures : str or sequence of str, optional
+        Formats of the figures in ``out``: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
     units : str, optional
         Unit system of the tables in ``out``, as in :func:`run`.
     progress : callable or bool, optional
@@ -176,7 +183,16 @@ def compare(
     ['chain']
     """
     found = execute(
-        "compare", of=case, velocity=speeds(velocity), model=several(model), reference=reference, fast=fast, out=out, units=units, progress=progress
+        "compare",
+        of=case,
+        velocity=speeds(velocity),
+        model=several(model),
+        reference=reference,
+        fast=fast,
+        out=out,
+        figures=formats(figures),
+        units=units,
+        progress=progress,
     )
     return Comparison(found)
 
@@ -190,9 +206,10 @@ def limit(
     model: str | Sequence[str] | None = None,
     reference: str | None = None,
     fast: bool = False,
-    shots: Path | None = None,
+    tests: Path | None = None,
     span: Speed | None = None,
     out: Path | None = None,
+    figures: str | Sequence[str] | None = None,
     progress: Progress | bool | None = None,
 ) -> Limits:
     """Finds the ballistic limit of a case with all applicable models, or V50 from test results.
@@ -200,7 +217,7 @@ def limit(
     Parameters
     ----------
     case : Case or path, optional
-        The case, or its file; optional when ``shots`` is given.
+        The case, or its file; optional when ``tests`` is given.
     velocity : tuple of float or str, optional
         Lowest and highest impact velocity to search [m/s]; 0 to 2000 m/s when not given.
     tolerance : float or str, optional
@@ -214,12 +231,14 @@ def limit(
         when neither this nor ``model`` is given. ``axisymmetric`` has the limit of fine meshes.
     fast : bool
         Leave the axisymmetric limit out.
-    shots : path, optional
+    tests : path, optional
         CSV file of tests with the columns ``impact_velocity_m_s`` and ``perforated``.
     span : float or str, optional
         Largest span of the velocities that V50 is the mean of [m/s].
     out : path, optional
         Folder for a copy of the case, the numbers and the figures, as ``percuss limit --out`` writes them; made if it does not exist.
+    figures : str or sequence of str, optional
+        Formats of the figures in ``out``: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
     progress : callable or bool, optional
         As in :func:`run`.
 
@@ -240,9 +259,10 @@ def limit(
         model=several(model),
         reference=reference,
         fast=fast,
-        shots=shots,
+        tests=tests,
         span=with_unit(span),
         out=out,
+        figures=formats(figures),
         progress=progress,
     )
     return Limits(found)
@@ -254,6 +274,7 @@ def converge(
     model: str | None = None,
     levels: int | None = None,
     out: Path | None = None,
+    figures: str | Sequence[str] | None = None,
     progress: Progress | bool | None = None,
 ) -> Convergence:
     """Refines the mesh of a case and assesses its convergence.
@@ -268,6 +289,8 @@ def converge(
         Number of meshes, 3 to 8, each twice as fine as the last; 4 when not given. Three meshes give one observed order, which does not confirm convergence.
     out : path, optional
         Folder for the study and its figures, as ``percuss converge --out`` writes them; made if it does not exist.
+    figures : str or sequence of str, optional
+        Formats of the figures in ``out``: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
     progress : callable or bool, optional
         As in :func:`run`.
 
@@ -277,7 +300,7 @@ def converge(
     >>> [mesh.projectile_elements for mesh in study.meshes]
     [40, 80, 160]
     """
-    return Convergence(execute("converge", of=case, model=model, levels=levels, out=out, progress=progress))
+    return Convergence(execute("converge", of=case, model=model, levels=levels, out=out, figures=formats(figures), progress=progress))
 
 
 def export(case: CaseLike, *, to: str, out: Path) -> dict[str, Any]:

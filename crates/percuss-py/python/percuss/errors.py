@@ -8,7 +8,7 @@ class PercussError(Exception):
 
 
 class CaseError(PercussError, ValueError):
-    """A case, a sweep or a file of shots is not valid.
+    """A case, a sweep or a file of tests is not valid.
 
     Attributes
     ----------

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path as FilePath
 from typing import Any
 
-from .command_line import CaseLike, Path, answer, execute
+from .command_line import CaseLike, Path, answer, execute, formats
 from .record import Record, Records
 
 
@@ -118,6 +118,7 @@ def flow_curves(
     case: CaseLike | None = None,
     file: Path | None = None,
     out: Path | None = None,
+    figures: str | Sequence[str] | None = None,
 ) -> Records[Record]:
     """Computes the flow curves of materials: stress against plastic strain at constant strain rates and one temperature.
 
@@ -133,6 +134,8 @@ def flow_curves(
         As in :func:`materials`.
     out : path, optional
         Folder for the curves and their figure; made if it does not exist.
+    figures : str or sequence of str, optional
+        Formats of the figures in ``out``: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
 
     Returns
     -------
@@ -149,7 +152,7 @@ def flow_curves(
     >>> round(slow.flow_stress_mpa[0])
     90
     """
-    curves = answer("materials compare", *names, rate=rate, temperature=temperature, case=case, file=file, out=out)
+    curves = answer("materials compare", *names, rate=rate, temperature=temperature, case=case, file=file, out=out, figures=formats(figures))
     return Records(map(Record, curves), "material", "strain_rate_per_s", "temperature_k")
 
 

@@ -112,9 +112,9 @@ def comparison(comparison: Comparison, ax: Axes | None) -> Axes:
         points = [(r.impact_velocity_m_s, r[quantity]) for r in given if r.model == name]
         star = " ★" if name in chosen else ""
         ax.plot(*zip(*points, strict=True), label=name + star, linewidth=2 if star else 1)
-    shots = [(e.impact_velocity_m_s, e.value) for e in measured if e.impact_velocity_m_s is not None]
-    if shots:
-        ax.plot(*zip(*shots, strict=True), "k+", label="experiment")
+    tests = [(e.impact_velocity_m_s, e.value) for e in measured if e.impact_velocity_m_s is not None]
+    if tests:
+        ax.plot(*zip(*tests, strict=True), "k+", label="experiment")
     ax.set(xlabel="Impact velocity (m/s)", ylabel=words, title=title)
     ax.legend()
     return ax
@@ -148,10 +148,10 @@ def limits(limits: Limits, ax: Axes | None) -> Axes:
 def v50(limits: Limits, ax: Axes | None) -> Axes:
     import numpy
 
-    if limits.v50 is None or limits.shots is None:
-        raise ValueError("no test results were given: `shots` names a file of them")
+    if limits.v50 is None or limits.tests is None:
+        raise ValueError("no test results were given: `tests` names a file of them")
     ax = new_axes(ax)
-    speeds = [shot.impact_velocity_m_s for shot in limits.shots]
+    speeds = [test.impact_velocity_m_s for test in limits.tests]
     margin = 0.15 * (max(speeds) - min(speeds))
     at = numpy.linspace(min(speeds) - margin, max(speeds) + margin, 200)
     for estimate in limits.v50.estimates:
@@ -163,7 +163,7 @@ def v50(limits: Limits, ax: Axes | None) -> Axes:
         if estimate.low_m_s is not None and estimate.high_m_s is not None:
             ax.hlines(0.5, estimate.low_m_s, estimate.high_m_s, color=line.get_color(), alpha=0.4, linewidth=5)
     for perforated, colour, words in ((True, "C3", "complete penetration"), (False, "C2", "partial penetration")):
-        chosen = [shot.impact_velocity_m_s for shot in limits.shots if shot.perforated is perforated]
+        chosen = [test.impact_velocity_m_s for test in limits.tests if test.perforated is perforated]
         ax.plot(chosen, [float(perforated)] * len(chosen), "o", color=colour, mfc="none", label=words)
     level = f"{100 * limits.v50.confidence:g} %"
     ax.set(xlabel="Impact velocity (m/s)", ylabel="Probability of perforation", title=f"V50 of {len(speeds)} tests, {level} intervals")

@@ -201,7 +201,7 @@ class Limits(Result):
     v50 : Record or None
         V50 of test results, when a file was given: ``estimates``, one entry per ``method`` with ``v50_m_s`` and the ends of
         its interval, ``low_m_s`` and ``high_m_s`` [m/s].
-    shots : list of Record or None
+    tests : list of Record or None
         These tests: ``impact_velocity_m_s`` [m/s] and ``perforated``.
     """
 
@@ -216,7 +216,7 @@ class Limits(Result):
     experiments: list[Record]
     results: list[Record]
     v50: Record | None
-    shots: list[Record] | None
+    tests: list[Record] | None
 
     def _rows(self) -> list[dict[str, Any]]:
         return list(self._data.get("results", []))

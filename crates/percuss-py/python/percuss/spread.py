@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _percuss, laws, study_plots
-from .command_line import CaseLike, Path, Speed, execute, several, speeds
+from .command_line import CaseLike, Path, Speed, execute, formats, several, speeds
 from .errors import UsageError
 from .laws import StrengthLaw
 from .progress import Progress
@@ -131,7 +131,7 @@ class Uncertainty(Result):
             rows.append(["probability of perforation [%]", shown(100 * self.perforation.probability)])
         rows += [["warning", warning] for warning in self.warnings]
         return table_html(
-            ["", *(quantity.quantity for quantity in self.quantities)], rows, f"{self.case}, model {self.model}, {self.samples} shots"
+            ["", *(quantity.quantity for quantity in self.quantities)], rows, f"{self.case}, model {self.model}, {self.samples} runs"
         )
 
 
@@ -147,6 +147,7 @@ def uncertainty(
     axisymmetric: int | None = None,
     threads: int | None = None,
     out: Path | None = None,
+    figures: str | Sequence[str] | None = None,
     progress: Progress | bool | None = None,
     projectile_law: StrengthLaw | None = None,
     target_law: StrengthLaw | None = None,
@@ -160,7 +161,7 @@ def uncertainty(
     model : str, optional
         Name of the model; ``chain`` when not given.
     samples : int, optional
-        Shots that the statistics rest on, a power of two at best; 1024 when not given. The indices of d parameters take
+        Runs that the statistics rest on, a power of two at best; 1024 when not given. The indices of d parameters take
         ``samples * (d + 1)`` more.
     seed : int, optional
         Seed of the random numbers; 0 when not given.
@@ -169,17 +170,19 @@ def uncertainty(
     velocity : float, sequence of float or str, optional
         Impact speeds of bands [m/s], or what ``--velocity`` takes, such as ``"150..400:6"``; no bands when not given.
     no_indices : bool
-        Whether to leave out the Sobol' indices, which take most of the shots.
+        Whether to leave out the Sobol' indices, which take most of the runs.
     axisymmetric : int, optional
         Number of samples that the axisymmetric model runs on to correct mean and spread, 4 to 256.
     threads : int, optional
         Threads; as many as there are cores when not given. The numbers do not depend on it.
     out : path, optional
         Folder for a copy of the case, the numbers and the figures, as ``percuss uncertainty --out`` writes them; made if it does not exist.
+    figures : str or sequence of str, optional
+        Formats of the figures in ``out``: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
     progress : callable or bool, optional
         As in :func:`percuss.run`.
     projectile_law, target_law : callable, optional
-        Strength laws in Python, as in :func:`percuss.run`, for every shot. An exception in a law ends the study. Not with ``out`` and
+        Strength laws in Python, as in :func:`percuss.run`, for every run. An exception in a law ends the study. Not with ``out`` and
         ``axisymmetric``.
 
     Returns
@@ -194,7 +197,7 @@ def uncertainty(
     NotApplicableError
         When the model does not apply with every number at its median.
     UsageError
-        When a quantity is asked for that no shot has, or no shot has a result.
+        When a quantity is asked for that no run has, or no run has a result.
 
     Examples
     --------
@@ -219,6 +222,7 @@ def uncertainty(
         axisymmetric=axisymmetric,
         threads=threads,
         out=out,
+        figures=formats(figures),
         progress=progress,
         laws=(projectile_law, target_law, own),
     )

@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path as FilePath
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from . import _percuss, cluster, laws, plots
-from .command_line import Path, answer, execute, several
+from .command_line import Path, answer, execute, formats, several
 from .case import Case
 from .errors import UsageError
 from .laws import StrengthLaw
@@ -26,17 +27,18 @@ if TYPE_CHECKING:
 
 
 class SweepResult:
-    """Folder of a sweep: one row per run, in Parquet files. It can be used as a path."""
+    """Folder of a sweep: one row per run, in Parquet files. It can be used as a path. A temporary folder lasts as long as this object."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = FilePath(folder)
+    def __init__(self, folder: Path | TemporaryDirectory[str]) -> None:
+        self._temporary = folder if isinstance(folder, TemporaryDirectory) else None
+        self.folder = FilePath(folder.name if isinstance(folder, TemporaryDirectory) else folder)
 
     def __fspath__(self) -> str:
         return str(self.folder)
 
     @property
     def status(self) -> Record:
-        """Progress of the folder, as printed by ``percuss sweep status``: ``shots_done``, ``blocks_done``, ``blocks_damaged``, ``running`` and the ``manifest``."""
+        """Progress of the folder, as printed by ``percuss sweep status``: ``runs_done``, ``blocks_done``, ``blocks_damaged``, ``running`` and the ``manifest``."""
         return Record(answer("sweep status", self.folder))
 
     @property
@@ -49,7 +51,7 @@ class SweepResult:
     def complete(self) -> bool:
         """Whether all runs are complete."""
         status = self.status
-        return bool(status.shots_done == status.manifest.shots)
+        return bool(status.runs_done == status.manifest.runs)
 
     def files(self) -> list[FilePath]:
         """Files of the computed blocks, in the order of the runs."""
@@ -72,27 +74,27 @@ class SweepResult:
         return rows
 
     def to_xarray(self, units: str | None = None) -> xarray.Dataset:
-        """All computed rows as variables of xarray with their ``units``, along ``shot``."""
+        """All computed rows as variables of xarray with their ``units``, along ``run``."""
         rows = self.to_arrow()
-        return dataset({name: rows[name].to_pylist() for name in rows.column_names}, "shot", units, "shot")
+        return dataset({name: rows[name].to_pylist() for name in rows.column_names}, "run", units, "run")
 
     def merge(self, out: Path, units: str | None = None) -> int:
         """Writes all rows into one Parquet file, as :func:`percuss.merge` does; returns their number."""
         return merge(self, out, units=units)
 
     def plot(self, x: str, y: str, colour: str | None = None, ax: Axes | None = None) -> Axes:
-        """Draws a column versus another one, one dot per shot, coloured by a third; :func:`percuss.plot` chooses what suits the sweep."""
+        """Draws a column versus another one, one dot per run, coloured by a third; :func:`percuss.plot` chooses what suits the sweep."""
         return plots.sweep(self, x, y, colour, ax)
 
     def __repr__(self) -> str:
         status = self.status
-        return f"<SweepResult {self.folder}, {status.shots_done} of {status.manifest.shots} shots>"
+        return f"<SweepResult {self.folder}, {status.runs_done} of {status.manifest.runs} runs>"
 
     def _repr_html_(self) -> str:
         status, manifest = self.status, self.manifest
         rows = [
             ["folder", str(self.folder)],
-            ["shots", f"{status.shots_done} of {manifest.shots}"],
+            ["runs", f"{status.runs_done} of {manifest.runs}"],
             ["model", manifest.model],
             ["design", manifest.design],
             ["columns", ", ".join(column.name for column in manifest.columns)],
@@ -102,7 +104,7 @@ class SweepResult:
 
 def sweep(
     sweep: Path | Mapping[str, Any],
-    out: Path,
+    out: Path | None = None,
     *,
     resume: bool = False,
     shard: tuple[int, int] = (1, 1),
@@ -114,7 +116,7 @@ def sweep(
 ) -> SweepResult:
     """Computes a case many times with some of its numbers varied.
 
-    Rows depend on the sweep, the case and the shot alone: they are the same, bit for bit, whatever the number of threads, shards and
+    Rows depend on the sweep, the case and the run alone: they are the same, bit for bit, whatever the number of threads, shards and
     workers, and the same as those of ``percuss sweep``.
 
     Parameters
@@ -122,8 +124,9 @@ def sweep(
     sweep : path or mapping
         A sweep file, or what it says as a mapping, whose ``base`` may be a :class:`Case`. A mapping is written to ``out`` as
         ``sweep.toml``, so that the program can go on with the folder.
-    out : path
-        Folder of the results. It is written by this process alone, also on a cluster.
+    out : path, optional
+        Folder of the results. It is written by this process alone, also on a cluster. A temporary folder when not given: it is removed with
+        the result, so that such a sweep cannot be resumed.
     resume : bool
         Whether to go on with a folder that holds a part of this sweep.
     shard : tuple of int
@@ -135,7 +138,7 @@ def sweep(
     progress : callable or bool, optional
         As in :func:`percuss.run`.
     projectile_law, target_law : callable, optional
-        Strength laws in Python, as in :func:`percuss.run`, for every shot; threads take turns in them. A folder goes on with the same law
+        Strength laws in Python, as in :func:`percuss.run`, for every run; threads take turns in them. A folder goes on with the same law
         only. An exception in a law ends the sweep. Not on a cluster.
 
     Returns
@@ -152,15 +155,13 @@ def sweep(
 
     Examples
     --------
-    >>> import tempfile
     >>> rows = percuss.sweep(
     ...     {
     ...         "base": percuss.load("cases/paper-table1/scenario.toml"),
     ...         "model": "chain",
     ...         "design": "grid",
     ...         "parameter": [{"key": "projectile.impact_velocity", "values": ["200 m/s", "230 m/s"]}],
-    ...     },
-    ...     tempfile.mkdtemp(),
+    ...     }
     ... )
     >>> rows.complete, rows.to_pandas()["impact_velocity_m_s"].tolist()
     (True, [200.0, 230.0])
@@ -168,12 +169,15 @@ def sweep(
     part, parts = shard
     if not 1 <= part <= parts:
         raise UsageError(f"shard {part}/{parts} does not exist: parts are counted from 1 to their number")
+    if out is None and (resume or shard != (1, 1)):
+        raise UsageError("`resume` and `shard` need a folder that stays: give `out`")
     own = laws.name(projectile_law, target_law)
     if own and client is not None:
         raise UsageError("strength laws in Python are computed on this machine: leave out `client`, or add the law to the library")
-    path = _written(sweep, FilePath(out)) if isinstance(sweep, Mapping) else FilePath(sweep)
+    result = SweepResult(TemporaryDirectory(prefix="percuss-sweep-") if out is None else out)
+    path = _written(sweep, result.folder) if isinstance(sweep, Mapping) else FilePath(sweep)
     native = _percuss.Sweep(path, projectile_law, target_law, own)
-    folder = _percuss.SweepFolder(out, native, resume)
+    folder = _percuss.SweepFolder(result.folder, native, resume)
     try:
         with watching(progress) as hear:
             if client is None:
@@ -182,7 +186,7 @@ def sweep(
                 cluster.compute(native, folder, folder.missing(part, parts), client, hear)
     finally:
         folder.close()
-    return SweepResult(out)
+    return result
 
 
 def merge(folders: Path | Sequence[Path], out: Path, *, units: str | None = None) -> int:
@@ -228,6 +232,7 @@ def plot(
     folders: Path | Sequence[Path],
     *,
     out: Path | None = None,
+    figures: str | Sequence[str] | None = None,
     quantity: str | None = None,
     style: str | None = None,
     x: str | None = None,
@@ -241,6 +246,8 @@ def plot(
         Folders of results; several are parts of one sweep. What is not computed yet is counted.
     out : path, optional
         Folder for the figure; the first of the folders of results when not given.
+    figures : str or sequence of str, optional
+        Formats of the figure: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
     quantity : str, optional
         Column of the result to draw.
     style : str, optional
@@ -253,7 +260,7 @@ def plot(
     UsageError
         When the folders hold no rows, or what is asked for does not fit the sweep.
     """
-    return Drawing(execute("sweep plot", *several(folders), out=out, quantity=quantity, style=style, x=x, y=y))
+    return Drawing(execute("sweep plot", *several(folders), out=out, figures=formats(figures), quantity=quantity, style=style, x=x, y=y))
 
 
 def _written(sweep: Mapping[str, Any], out: FilePath) -> FilePath:

@@ -12,9 +12,9 @@ use crate::column::Column;
 /// The result number that the ends of ranges and the estimated error follow.
 const BEFORE_RANGES: &str = "ballistic_limit_m_s";
 
-/// The columns of a sweep's rows. A number that a shot does not have is null, a text empty.
+/// The columns of a sweep's rows. A number that a run does not have is null, a text empty.
 pub(super) fn columns(sweep: &Sweep) -> Vec<Column<SweepRow>> {
-    let mut columns = vec![Column::integer("shot", |row: &SweepRow| row.index as i64)];
+    let mut columns = vec![Column::integer("run", |row: &SweepRow| row.index as i64)];
     for (i, axis) in sweep.axes.iter().enumerate() {
         columns.push(match axis.words() {
             None => Column::float(axis.column(), move |row: &SweepRow| row.inputs[i]),
@@ -156,7 +156,7 @@ mod tests {
         let sweep = Sweep::of(&file, &case).unwrap();
         let columns = columns(&sweep);
         let found: BTreeSet<&str> = columns.iter().map(|column| column.name()).collect();
-        let mut expected = BTreeSet::from(["shot", "projectile.impact_velocity_m_s"]);
+        let mut expected = BTreeSet::from(["run", "projectile.impact_velocity_m_s"]);
         for field in RESULT_FIELDS {
             let held = NO_NUMBERS.iter().find(|(name, _)| *name == field.name);
             match (&field.number, held) {

@@ -48,10 +48,10 @@ pub struct Status {
 
 impl Status {
     /// Completed runs.
-    pub fn shots_done(&self) -> u64 {
+    pub fn runs_done(&self) -> u64 {
         self.done
             .iter()
-            .map(|block| self.manifest.shots_in(*block))
+            .map(|block| self.manifest.runs_in(*block))
             .sum()
     }
 }
@@ -218,8 +218,8 @@ impl Block {
         block: u64,
         stop: &AtomicBool,
     ) -> Result<Option<Self>, ReportError> {
-        let shots = sweep.block(block).map(|shot| sweep.run(shot)).collect();
-        let Ok(rows) = kernel.rows(shots, stop) else {
+        let runs = sweep.block(block).map(|run| sweep.run(run)).collect();
+        let Ok(rows) = kernel.rows(runs, stop) else {
             return Ok(None);
         };
         let name = block_file(block);
@@ -295,7 +295,7 @@ fn state_of(content: Bytes, manifest: &Manifest, block: u64) -> State {
     let of_block =
         name.is_some_and(|name| name.value == Some(checksum::block_name(manifest, block)));
     let whole = of_block
-        && metadata.num_rows() as u64 == manifest.shots_in(block)
+        && metadata.num_rows() as u64 == manifest.runs_in(block)
         && reader.num_row_groups() == 1
         && names.eq(manifest.columns.iter().map(|column| column.name.as_str()));
     if whole { State::Done } else { State::Damaged }

@@ -32,7 +32,7 @@ pub struct Manifest {
     /// Seed of the random numbers.
     pub seed: u64,
     /// Number of runs.
-    pub shots: u64,
+    pub runs: u64,
     /// Runs per block; the last block may have fewer.
     pub block_size: u64,
     /// Hash of the sweep file without its comments (FNV-1a, 128 bits).
@@ -87,7 +87,7 @@ impl Manifest {
             model: sweep.model.name().to_owned(),
             design: sweep.design().name().to_owned(),
             seed: sweep.seed,
-            shots: sweep.runs(),
+            runs: sweep.runs(),
             block_size: sweep.block_size,
             sweep_hash: file,
             case_hash: case,
@@ -98,12 +98,12 @@ impl Manifest {
 
     /// Number of blocks.
     pub fn blocks(&self) -> u64 {
-        self.shots.div_ceil(self.block_size)
+        self.runs.div_ceil(self.block_size)
     }
 
-    /// Number of shots in a block.
-    pub fn shots_in(&self, block: u64) -> u64 {
-        self.block_size.min(self.shots - block * self.block_size)
+    /// Number of runs in a block.
+    pub fn runs_in(&self, block: u64) -> u64 {
+        self.block_size.min(self.runs - block * self.block_size)
     }
 
     /// Reads the manifest of a folder; `None` when it has none.
@@ -126,8 +126,8 @@ impl Manifest {
             });
         }
         match serde_json::from_slice::<Self>(&bytes) {
-            Ok(manifest) if manifest.block_size > 0 && manifest.shots > 0 => Ok(Some(manifest)),
-            Ok(_) => Err(unreadable(&path, "it counts no shots")),
+            Ok(manifest) if manifest.block_size > 0 && manifest.runs > 0 => Ok(Some(manifest)),
+            Ok(_) => Err(unreadable(&path, "it counts no runs")),
             Err(error) => Err(unreadable(&path, &error.to_string())),
         }
     }

@@ -29,7 +29,7 @@ use percuss::{
 use super::{block_file, is_sweep_file, manifest::Manifest, parts::Parts};
 use crate::{ReportError, replace_file::replace_file_durably};
 
-/// Joins the blocks of folders that hold parts of one sweep into one Parquet file, in the order of the shots: a row group a
+/// Joins the blocks of folders that hold parts of one sweep into one Parquet file, in the order of the runs: a row group a
 /// block. Columns are in the units of a system where one is given. The file depends on the sweep alone, not on who computed which block. Returns the number of rows.
 ///
 /// # Errors
@@ -74,7 +74,7 @@ pub fn merge(
         // What is wrong with the blocks comes out as an error of the system too: their footers were read before.
         join(&files, &parts.manifest, units, file).map_err(io::Error::other)
     })?;
-    Ok(parts.manifest.shots)
+    Ok(parts.manifest.runs)
 }
 
 /// Name and factor of a column of numbers in a unit system; `None` where it stays as it is.

@@ -26,9 +26,9 @@ pub(super) struct Rows {
     pub(super) inputs: Vec<Vec<f64>>,
     /// The number that was asked for: not finite where there is none.
     pub(super) values: Vec<f64>,
-    /// Whether the shot failed: no case can be made of it, or the model gave an error.
+    /// Whether the run failed: no case can be made of it, or the model gave an error.
     pub(super) failed: Vec<bool>,
-    /// Shots that are not there: their blocks are missing or damaged.
+    /// Runs that are not there: their blocks are missing or damaged.
     pub(super) missing: u64,
 }
 
@@ -54,7 +54,7 @@ impl Rows {
                             reason: error.to_string(),
                         })?;
                 }
-                None => rows.missing += manifest.shots_in(block as u64),
+                None => rows.missing += manifest.runs_in(block as u64),
             }
         }
         Ok(rows)

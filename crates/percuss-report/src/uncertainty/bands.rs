@@ -131,16 +131,16 @@ pub(super) fn perforation(scenario: &Scenario, found: &Uncertainty) -> Option<Li
         caption(scenario, None)
     ))
     .series(Series::new(format!("model {}", found.model), curve).band(band));
-    let shots = scenario
+    let tests = scenario
         .experiments
         .iter()
         .filter(|m| m.quantity == BandQuantity::ResidualVelocity);
-    let shots: Vec<(f64, f64)> = shots
+    let tests: Vec<(f64, f64)> = tests
         .filter_map(|m| Some((m.impact_velocity?, if m.value > 0.0 { 100.0 } else { 0.0 })))
         .collect();
-    if !shots.is_empty() {
+    if !tests.is_empty() {
         chart = chart.series(
-            Series::new("experiment", shots)
+            Series::new("experiment", tests)
                 .style(Style::Markers)
                 .color(palette::EXPERIMENT),
         );

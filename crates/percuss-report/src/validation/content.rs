@@ -37,7 +37,7 @@ pub(super) fn page<'a>(
         ),
     ];
     for kind in Kind::ALL {
-        if validation.tests.iter().any(|shot| shot.kind == kind) {
+        if validation.tests.iter().any(|test| test.kind == kind) {
             page.extend(section(validation, kind, figures));
         }
     }
@@ -60,22 +60,22 @@ pub(super) fn page<'a>(
 }
 
 fn counts(validation: &Validation) -> Vec<String> {
-    let shots = &validation.tests;
-    let count = |of: &dyn Fn(&Experiment) -> bool| shots.iter().filter(|&shot| of(shot)).count();
+    let tests = &validation.tests;
+    let count = |of: &dyn Fn(&Experiment) -> bool| tests.iter().filter(|&test| of(test)).count();
     let kinds: Vec<String> = Kind::ALL
         .into_iter()
-        .map(|kind| (kind, count(&|shot| shot.kind == kind)))
+        .map(|kind| (kind, count(&|test| test.kind == kind)))
         .filter(|(_, count)| *count > 0)
         .map(|(kind, count)| format!("{count} {}", kind.describe()))
         .collect();
     vec![
-        format!("{} tests: {}", shots.len(), kinds.join(", ")),
+        format!("{} tests: {}", tests.len(), kinds.join(", ")),
         format!(
             "{} repeat others, {} are suspect, {} cannot be made a case, {} are oblique",
-            count(&|shot| shot.duplicate_of.is_some()),
-            count(&|shot| shot.flag.is_some()),
-            count(&|shot| shot.unusable.is_some()),
-            count(&|shot| shot.unusable.is_none() && shot.obliquity_deg != 0.0)
+            count(&|test| test.duplicate_of.is_some()),
+            count(&|test| test.flag.is_some()),
+            count(&|test| test.unusable.is_some()),
+            count(&|test| test.unusable.is_none() && test.obliquity_deg != 0.0)
         ),
         format!("models: {}", validation.models.join(", ")),
         match without_tests(validation).as_slice() {
@@ -154,8 +154,8 @@ fn not_blind(validation: &Validation) -> Vec<String> {
     let fitted = validation
         .tests
         .iter()
-        .filter(|shot| shot.split == Split::Calibration);
-    let mut sources: Vec<&str> = fitted.map(|shot| shot.source.as_str()).collect();
+        .filter(|test| test.split == Split::Calibration);
+    let mut sources: Vec<&str> = fitted.map(|test| test.source.as_str()).collect();
     sources.sort_unstable();
     sources.dedup();
     let mut lines = Vec::new();
@@ -226,7 +226,7 @@ fn blind<'a>(validation: &Validation) -> Vec<Block<'a>> {
 fn every_test<'a>(validation: &Validation) -> Vec<Block<'a>> {
     let mut blocks = vec![Block::Heading("Every test".to_owned())];
     for kind in Kind::ALL {
-        let table = tables::shots(validation, kind);
+        let table = tables::tests(validation, kind);
         if !table.is_empty() {
             blocks.push(Block::Folded(
                 format!("{} ({} lines)", heading(kind), table.len()),

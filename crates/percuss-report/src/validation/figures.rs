@@ -61,11 +61,11 @@ type Symbols = BTreeSet<String>;
 
 /// Group of a prediction: the material record of a Taylor rod, otherwise the projectile.
 fn group(validation: &Validation, prediction: &Prediction) -> Option<String> {
-    let shot = validation.test(prediction);
+    let test = validation.test(prediction);
     match prediction.standing {
         Standing::Flagged => Some(FLAGGED.to_owned()),
-        Standing::Counted if shot.kind == Kind::Taylor => Some(prediction.record.clone()),
-        Standing::Counted if prediction.main_record => Some(shot.projectile_class.clone()),
+        Standing::Counted if test.kind == Kind::Taylor => Some(prediction.record.clone()),
+        Standing::Counted if prediction.main_record => Some(test.projectile_class.clone()),
         _ => None,
     }
 }
@@ -124,9 +124,9 @@ fn what(kind: Kind) -> (&'static str, &'static str) {
 
 /// Scale of a prediction: the initial length of a Taylor rod, otherwise 1.
 fn scale(validation: &Validation, prediction: &Prediction) -> f64 {
-    let shot = validation.test(prediction);
-    match (shot.kind, shot.length) {
-        (Kind::Taylor, Some(length)) => shot.kind.shown(length),
+    let test = validation.test(prediction);
+    match (test.kind, test.length) {
+        (Kind::Taylor, Some(length)) => test.kind.shown(length),
         _ => 1.0,
     }
 }

@@ -21,7 +21,7 @@ fn prediction_columns() -> Vec<Column<PredictionRecord>> {
     type Row = PredictionRecord;
     let or_empty = |text: &Option<String>| text.clone().unwrap_or_default();
     vec![
-        Column::text("shot", |p: &Row| p.test.clone()),
+        Column::text("test", |p: &Row| p.test.clone()),
         Column::text("source", |p: &Row| p.source.clone()),
         Column::text("citation", |p: &Row| p.citation.clone()),
         Column::text("read_at", |p: &Row| p.read_at.clone()),
@@ -64,6 +64,6 @@ fn group_columns() -> Vec<Column<Group>> {
         Column::float("rms", |g: &Group| g.errors.rms),
         Column::float("median_absolute", |g: &Group| g.errors.median_absolute),
         Column::float("worst", |g: &Group| g.errors.worst),
-        Column::text("worst_shot", |g: &Group| g.errors.worst_id.clone()),
+        Column::text("worst_test", |g: &Group| g.errors.worst_id.clone()),
     ]
 }

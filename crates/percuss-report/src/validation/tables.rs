@@ -111,15 +111,15 @@ pub(super) fn coverage(validation: &Validation, kind: Kind) -> Table {
 pub(super) fn suspects(validation: &Validation) -> Table {
     let suspects = validation.tests.iter().enumerate();
     let suspects: Vec<(usize, &Experiment)> =
-        suspects.filter(|(_, shot)| shot.flag.is_some()).collect();
+        suspects.filter(|(_, test)| test.flag.is_some()).collect();
     Table::of(&suspects)
-        .words("test", |(_, shot)| shot.id.clone())
-        .words("source", |(_, shot)| shot.source.clone())
-        .words("reason", |(_, shot)| shot.flag.clone().unwrap_or_default())
-        .numbers("measured", "", |(_, shot)| {
-            significant(shot.kind.shown(shot.measured), 5)
+        .words("test", |(_, test)| test.id.clone())
+        .words("source", |(_, test)| test.source.clone())
+        .words("reason", |(_, test)| test.flag.clone().unwrap_or_default())
+        .numbers("measured", "", |(_, test)| {
+            significant(test.kind.shown(test.measured), 5)
         })
-        .words("unit", |(_, shot)| shot.kind.unit())
+        .words("unit", |(_, test)| test.kind.unit())
         .words("model and error [%]", |(index, _)| {
             answers(validation, *index)
         })
@@ -127,27 +127,27 @@ pub(super) fn suspects(validation: &Validation) -> Table {
 }
 
 /// Errors of all models with a prediction for a test with its main record.
-fn answers(validation: &Validation, shot: usize) -> String {
-    let of_shot = validation
+fn answers(validation: &Validation, test: usize) -> String {
+    let of_test = validation
         .predictions
         .iter()
-        .filter(|p| p.test == shot && p.main_record);
+        .filter(|p| p.test == test && p.main_record);
     let answer = |p: &Prediction| {
         let error = signed(p.relative_error?).replace('-', "\u{2212}");
         Some(format!("{} {error}", p.model))
     };
-    of_shot.filter_map(answer).collect::<Vec<_>>().join(", ")
+    of_test.filter_map(answer).collect::<Vec<_>>().join(", ")
 }
 
 /// Sources of the tests.
 pub(super) fn sources(validation: &Validation) -> Table {
     let mut groups: BTreeMap<&str, Vec<&Experiment>> = BTreeMap::new();
-    for shot in &validation.tests {
-        groups.entry(&shot.source).or_default().push(shot);
+    for test in &validation.tests {
+        groups.entry(&test.source).or_default().push(test);
     }
     let groups: Vec<(&str, Vec<&Experiment>)> = groups.into_iter().collect();
-    let all = |shots: &[&Experiment], of: fn(&Experiment) -> &str| {
-        words(shots.iter().map(|shot| of(shot)))
+    let all = |tests: &[&Experiment], of: fn(&Experiment) -> &str| {
+        words(tests.iter().map(|test| of(test)))
     };
     Table::of(&groups)
         .words("source", |(source, _)| *source)
@@ -156,9 +156,9 @@ pub(super) fn sources(validation: &Validation) -> Table {
                 format!("{}. {}. {}", work.label, work.title, work.place)
             })
         })
-        .numbers("tests", "", |(_, shots)| shots.len().to_string())
-        .words("split", |(_, shots)| all(shots, |shot| shot.split.name()))
-        .words("licence", |(_, shots)| all(shots, |shot| &shot.licence))
+        .numbers("tests", "", |(_, tests)| tests.len().to_string())
+        .words("split", |(_, tests)| all(tests, |test| test.split.name()))
+        .words("licence", |(_, tests)| all(tests, |test| &test.licence))
         .words("data", |(source, _)| {
             let work = references().get(*source);
             work.map_or_else(String::new, |work| work.note.clone())
@@ -175,7 +175,7 @@ fn words<'a>(words: impl Iterator<Item = &'a str>) -> String {
 }
 
 /// Every test of a kind with every record, with one column per model with predictions.
-pub(super) fn shots(validation: &Validation, kind: Kind) -> Table {
+pub(super) fn tests(validation: &Validation, kind: Kind) -> Table {
     let gave = |model: &str| {
         validation
             .predictions
@@ -202,15 +202,15 @@ pub(super) fn shots(validation: &Validation, kind: Kind) -> Table {
         .collect();
     let unit = kind.unit();
     Table::of(&rows)
-        .words("test", |(shot, ..)| shot.id.clone())
-        .words("source", |(shot, ..)| shot.source.clone())
+        .words("test", |(test, ..)| test.id.clone())
+        .words("source", |(test, ..)| test.source.clone())
         .words("record", |(_, record, _)| *record)
-        .words("target", |(shot, ..)| shot.target.name())
-        .numbers("impact velocity", "m/s", |(shot, ..)| {
-            significant(shot.impact_velocity, 5)
+        .words("target", |(test, ..)| test.target.name())
+        .numbers("impact velocity", "m/s", |(test, ..)| {
+            significant(test.impact_velocity, 5)
         })
-        .numbers("measured", unit, |(shot, ..)| {
-            significant(kind.shown(shot.measured), 5)
+        .numbers("measured", unit, |(test, ..)| {
+            significant(kind.shown(test.measured), 5)
         })
         .each(models, |rows, model| {
             let heading = format!("{model} [{unit}] (error [%])");
@@ -219,12 +219,12 @@ pub(super) fn shots(validation: &Validation, kind: Kind) -> Table {
                 prediction.map_or_else(String::new, |prediction| answer(prediction))
             })
         })
-        .words("reason of exclusion", |(shot, ..)| {
-            let repeats = || shot.duplicate_of.as_ref().map(|id| format!("repeats {id}"));
-            let reason = shot.no_case().or(shot.flag.clone()).or_else(repeats);
+        .words("reason of exclusion", |(test, ..)| {
+            let repeats = || test.duplicate_of.as_ref().map(|id| format!("repeats {id}"));
+            let reason = test.no_case().or(test.flag.clone()).or_else(repeats);
             reason.unwrap_or_default()
         })
-        .words("place in the source", |(shot, ..)| shot.read_at.clone())
+        .words("place in the source", |(test, ..)| test.read_at.clone())
         .table()
 }
 

@@ -19,7 +19,7 @@ use percuss::{
     units::significant,
 };
 use percuss_report::{
-    ReportError,
+    FigureFormat, ReportError,
     column::{self, Column},
     replace_file::replace_file,
 };
@@ -182,7 +182,7 @@ impl CodeComparison {
         let table = column::csv(name, &columns(), &self.values)?;
         written.push(replace_file(folder, name, &table)?);
         for figure in figures::draw(self) {
-            written.extend(figure.write(folder)?);
+            written.extend(figure.write(folder, FigureFormat::DEFAULT)?);
         }
         Ok(written)
     }

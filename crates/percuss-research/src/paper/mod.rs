@@ -12,7 +12,9 @@ use std::{
 };
 
 use percuss::Error;
-use percuss_report::{Figure, ReportError, figure::IN_PAGES, replace_file::replace_file};
+use percuss_report::{
+    Figure, FigureFormat, ReportError, figure::IN_PAGES, replace_file::replace_file,
+};
 use serde::Serialize;
 
 /// Assessment of one statement of the paper.
@@ -102,7 +104,7 @@ impl Reproduction {
     pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, ReportError> {
         let mut written = vec![replace_file(folder, "paper.md", self.page().as_bytes())?];
         for figure in &self.figures {
-            written.extend(figure.write(folder)?);
+            written.extend(figure.write(folder, FigureFormat::DEFAULT)?);
         }
         for (i, table) in self.tables.iter().enumerate() {
             let name = format!("table-{}.csv", i + 1);

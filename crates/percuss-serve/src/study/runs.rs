@@ -35,11 +35,11 @@ pub(super) fn watched<T>(job: &Job<'_>, ended: &AtomicBool, work: impl FnOnce() 
     })
 }
 
-/// Computes shots while somebody waits, and tells how many are done.
+/// Computes runs while somebody waits, and tells how many are done.
 pub(super) fn followed<T>(job: &Job<'_>, compute: impl FnOnce(&Observer<'_>) -> T) -> T {
     let ended = AtomicBool::new(false);
     let progress = |finished: u64, total: u64| {
-        let words = format!("{finished} of {total} shots");
+        let words = format!("{finished} of {total} runs");
         job.events.progress(finished as f64 / total as f64, &words);
     };
     let watch = Observer {
@@ -59,7 +59,7 @@ impl Drop for Done<'_> {
     }
 }
 
-/// A kernel that refuses shots which ask for more than a page may: a number that is varied can be that of elements.
+/// A kernel that refuses runs which ask for more than a page may: a number that is varied can be that of elements.
 pub(super) struct Bounded<'a> {
     kernel: BatchKernel,
     model: &'static dyn Model,
@@ -77,13 +77,13 @@ impl<'a> Bounded<'a> {
 }
 
 impl Kernel for Bounded<'_> {
-    fn rows(&self, mut shots: Vec<SweepRun>, stop: &AtomicBool) -> Result<Vec<SweepRow>, Stopped> {
-        for shot in &mut shots {
-            let scenario = shot.scenario.as_ref().ok();
+    fn rows(&self, mut runs: Vec<SweepRun>, stop: &AtomicBool) -> Result<Vec<SweepRow>, Stopped> {
+        for run in &mut runs {
+            let scenario = run.scenario.as_ref().ok();
             if let Some(Err(problem)) = scenario.map(|s| self.bounds.check(self.model, s)) {
-                shot.scenario = Err(problem.message().to_owned());
+                run.scenario = Err(problem.message().to_owned());
             }
         }
-        self.kernel.rows(shots, stop)
+        self.kernel.rows(runs, stop)
     }
 }

@@ -16,11 +16,11 @@ use super::{
 };
 use crate::problem::Problem;
 
-/// Most shots of a sweep.
-const MOST_SHOTS: u64 = 4096;
+/// Most runs of a sweep.
+const MOST_RUNS: u64 = 4096;
 /// Most rows that the page shows by themselves; the file has all.
 const SHOWN: usize = 200;
-/// Most reasons of failed shots.
+/// Most reasons of failed runs.
 const REASONS: usize = 3;
 /// Name that the sweep file has for the case.
 const BASE: &str = "scenario.toml";
@@ -30,10 +30,10 @@ pub(super) fn swept(job: &Job<'_>) -> Result<Study, Problem> {
     let case = job.read()?;
     let file = Document::new("sweep.toml", asked.sweep.as_str());
     let sweep = Sweep::of(&file, &Document::new(asked.name(), case.text.as_str()))?;
-    if sweep.runs() > MOST_SHOTS {
+    if sweep.runs() > MOST_RUNS {
         return Err(Problem::refused(
             format!("the sweep has {} runs", sweep.runs()),
-            format!("the page allows up to {MOST_SHOTS}; use `percuss sweep` for more"),
+            format!("the page allows up to {MOST_RUNS}; use `percuss sweep` for more"),
         ));
     }
     job.bounds.check(sweep.model, &case.scenario)?;
@@ -68,7 +68,7 @@ pub(super) fn swept(job: &Job<'_>) -> Result<Study, Problem> {
     let record = json!({
         "model": sweep.model.name(),
         "design": sweep.design().name(),
-        "shots": sweep.runs(),
+        "runs": sweep.runs(),
         "parameters": sweep.axes.iter().map(parameter).collect::<Vec<_>>(),
         "outcomes": outcomes(&rows),
         "reasons": reasons(&rows),
@@ -84,7 +84,7 @@ fn parameter(axis: &Axis) -> Value {
     json!({ "key": axis.key, "unit": axis.unit, "words": axis.words().unwrap_or_default() })
 }
 
-/// The numbers that come of the shots, with the values of the rows that are shown.
+/// The numbers that come of the runs, with the values of the rows that are shown.
 fn table(sweep: &Sweep, rows: &[SweepRow]) -> Vec<Value> {
     let number = |number: percuss_report::sweep::SweepNumber| {
         let shown = number.values.iter().take(SHOWN).collect::<Vec<_>>();
@@ -111,7 +111,7 @@ fn outcomes(rows: &[SweepRow]) -> BTreeMap<&'static str, u64> {
     outcomes
 }
 
-/// Why shots have no result: each reason once, and no more than a few.
+/// Why runs have no result: each reason once, and no more than a few.
 fn reasons(rows: &[SweepRow]) -> Vec<&str> {
     let mut reasons: Vec<&str> = Vec::new();
     for row in rows {

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{events::pretty, problem::Problem};
 
-/// Most shots that the statistics of a page rest on.
+/// Most runs that the statistics of a page rest on.
 const MOST_SAMPLES: u64 = 16_384;
 
 pub(super) fn uncertain(job: &Job<'_>) -> Result<Study, Problem> {

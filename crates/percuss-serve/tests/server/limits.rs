@@ -108,7 +108,7 @@ fn an_analysis_of_uncertainty_has_its_bounds() {
         let said = format!("{samples} samples are out of range");
         assert_eq!(last["problem"]["message"], said);
     }
-    // A number of elements can be uncertain: shots of too large a mesh are none.
+    // A number of elements can be uncertain: runs of too large a mesh are none.
     let elements = |values: &str| {
         let uncertain = format!(
             "{PAPER}\n[[uncertainty.parameter]]\nkey = \"chain.target_elements\"\nvalues = [{values}]\n"

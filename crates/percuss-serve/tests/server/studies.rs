@@ -63,7 +63,7 @@ fn uncertainty_is_that_of_the_library() {
     });
     let lines = served.post("/api/study/uncertainty", &asked).lines();
     let done = &lines[lines.len() - 1]["done"];
-    assert!(lines[0]["progress"]["words"].to_string().contains("shots"));
+    assert!(lines[0]["progress"]["words"].to_string().contains("runs"));
 
     let study = Study::of(&Document::new("shot", text)).unwrap();
     let chain = model("chain").unwrap();

@@ -20,7 +20,7 @@ use serde_json::{Value, json};
 
 use crate::support::{PAPER, Served, post_request};
 
-/// Shots of which some erode, some perforate and one has no case.
+/// Runs of which some erode, some perforate and one has no case.
 const GRID: &str = "
 base = 'scenario.toml'
 model = 'chain'
@@ -55,7 +55,7 @@ fn the_files_of_the_page_give_its_rows_on_the_command_line() {
     let served = Served::new(Options::default());
     let lines = served.post("/api/study/sweep", &asked(GRID)).lines();
     let done = &lines[lines.len() - 1]["done"];
-    assert!(lines[0]["progress"]["words"].to_string().contains("shots"));
+    assert!(lines[0]["progress"]["words"].to_string().contains("runs"));
 
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
@@ -95,9 +95,9 @@ fn the_files_of_the_page_give_its_rows_on_the_command_line() {
         }
         count += 1;
     }
-    assert_eq!((count, &done["shots"]), (21, &json!(21)));
+    assert_eq!((count, &done["runs"]), (21, &json!(21)));
     let csv = done["files"]["rows.csv"].as_str().unwrap();
-    assert!(csv.starts_with("shot,projectile.impact_velocity_m_s,target.thickness_mm,outcome,"));
+    assert!(csv.starts_with("run,projectile.impact_velocity_m_s,target.thickness_mm,outcome,"));
 
     // A curve a thickness, and a map of both.
     let figure = plot(&[at("rows")], &PlotRequest::default()).unwrap();
@@ -124,7 +124,7 @@ fn more_than_two_parameters_are_drawn_side_by_side() {
     let three = format!("{GRID}{options}").replace("count = 7", "count = 2");
     let lines = served.post("/api/study/sweep", &asked(&three)).lines();
     let done = &lines[lines.len() - 1]["done"];
-    assert_eq!(done["shots"], 12);
+    assert_eq!(done["runs"], 12);
     assert_eq!(
         done["pictures"][0]["name"],
         "parallel-depth_of_penetration_mm"
@@ -188,7 +188,7 @@ fn a_sweep_has_bounds() {
         said.contains("up to 4096; use `percuss sweep` for more"),
         "{said}"
     );
-    // Lists take memory before anybody counts the shots.
+    // Lists take memory before anybody counts the runs.
     let long = GRID
         .replace("count = 7", "count = 1000000")
         .replace("count = 3", "count = 1000000");

@@ -27,7 +27,7 @@ export function sweep(page: Page, numbers: Numbers): Kind {
 
 function show(done: Swept, view: (chart: Chart, files: Study["files"]) => ChartView): HTMLElement[] {
   const outcomes = Object.entries(done.outcomes).map(([outcome, count]) => `${count} ${outcome}`);
-  const said: HTMLElement[] = [make("p", {}, `Model ${done.model}, ${done.design}, ${done.shots} runs: ${outcomes.join(", ")}.`)];
+  const said: HTMLElement[] = [make("p", {}, `Model ${done.model}, ${done.design}, ${done.runs} runs: ${outcomes.join(", ")}.`)];
   if (done.reasons.length) said.push(make("ul", {}, ...done.reasons.map((reason) => make("li", {}, reason))));
   const rows = make("div");
   if (done.drawn.length === 0) return [...said, rowsTable(done, "")];
@@ -56,6 +56,6 @@ function rowsTable(done: Swept, quantity: string): HTMLElement {
     const value = number?.values[i];
     return [...inputs, row.outcome, ...(number ? [value == null ? "–" : significant(value, 5)] : [])];
   });
-  const shown = done.rows.length < done.shots ? `The first ${done.rows.length} of ${done.shots} rows` : "The rows";
+  const shown = done.rows.length < done.runs ? `The first ${done.rows.length} of ${done.runs} rows` : "The rows";
   return make("details", {}, make("summary", {}, shown), table(head, lines, [done.parameters.length]));
 }

@@ -190,7 +190,7 @@ export interface Spread extends Study {
 export interface Swept extends Study {
   model: string;
   design: string;
-  shots: number;
+  runs: number;
   parameters: { key: string; unit: string; words: string[] }[];
   outcomes: Record<string, number>;
   reasons: string[];

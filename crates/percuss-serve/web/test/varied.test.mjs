@@ -64,7 +64,7 @@ test("a sweep of two numbers shows curves, a map, rows and files that the comman
   const [sweepName, sweep] = await take(page, of, "sweep.toml");
   const [caseName, scenario] = await take(page, of, "scenario.toml");
   assert.deepEqual([sweepName, caseName], ["sweep.toml", "scenario.toml"]);
-  assert.match((await take(page, of, "rows.csv"))[1], /^shot,projectile\.impact_velocity_m_s,chain\.constraint_factor,outcome/);
+  assert.match((await take(page, of, "rows.csv"))[1], /^run,projectile\.impact_velocity_m_s,chain\.constraint_factor,outcome/);
   const files = { "sweep.toml": sweep, "scenario.toml": scenario };
   assert.equal(command("swept", files, "sweep", "sweep.toml", "--out", "rows", "--quiet").status, 0);
   // The figure has the same numbers, and so the same text.

@@ -226,7 +226,7 @@ fn tests_of_one_kind_and_reversed_ones_give_reasons() {
 fn a_file_is_read_and_what_is_wrong_in_it_has_its_place() {
     let text =
         "impact_velocity_m_s,perforated,note\n184.3,yes,\n\n 184.8 , no ,\"stopped, just\"\n";
-    let read = read_str("shots.csv", text).unwrap();
+    let read = read_str("tests.csv", text).unwrap();
     assert_eq!(
         read,
         tests(&[184.8], &[184.3])
@@ -234,7 +234,7 @@ fn a_file_is_read_and_what_is_wrong_in_it_has_its_place() {
             .rev()
             .collect::<Vec<_>>()
     );
-    let error = |text: &str| match read_str("shots.csv", text) {
+    let error = |text: &str| match read_str("tests.csv", text) {
         Err(Error::Input(error)) => (error.line(), error.key.clone(), error.to_string()),
         other => panic!("{other:?}"),
     };

@@ -26,12 +26,13 @@ use percuss::{
 
 use crate::{
     failure::Failure,
+    figure_formats::FigureArgs,
     file_list::FileList,
     output,
     progress::Progress,
     response::{ProgressCallback, Response, ResponseData, VirtualFiles},
     run_folder::RunFolder,
-    shot_data, terminal,
+    terminal, test_data,
     workers::{self, unless_stopped},
 };
 
@@ -136,6 +137,8 @@ pub struct Calibrate {
     /// Write numbers, materials and figures to a folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    figures: FigureArgs,
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]
     json: bool,
@@ -148,7 +151,7 @@ impl Calibrate {
     pub fn run(&self) -> Result<(), Failure> {
         let problem = self.problem(&VirtualFiles::default())?;
         let settings = self.settings(&problem)?;
-        let folder = RunFolder::wanted(self.out.as_deref(), None)?;
+        let folder = RunFolder::wanted(self.out.as_deref(), None, self.figures.formats())?;
         let found = self.watched(problem, &settings)?;
         let files = written(folder, &found)?;
         self.print(&found, &files)
@@ -162,7 +165,7 @@ impl Calibrate {
     ) -> Result<Response, Failure> {
         let problem = self.problem(virtual_files)?;
         let settings = self.settings(&problem)?;
-        let folder = RunFolder::wanted(self.out.as_deref(), None)?;
+        let folder = RunFolder::wanted(self.out.as_deref(), None, self.figures.formats())?;
         let stages = self.stages();
         let on_progress = Mutex::new(on_progress);
         let found = self.solve(problem, &settings, &|stage, part, runs| {
@@ -190,8 +193,8 @@ impl Calibrate {
             observations.add_case(&virtual_files.read(path)?)?;
         }
         if !self.data.is_empty() {
-            let (shots, _) = shot_data::read(&self.data, &self.kind, &library)?;
-            observations.add_tests(&shots, &library, &fitted)?;
+            let (tests, _) = test_data::read(&self.data, &self.kind, &library)?;
+            observations.add_tests(&tests, &library, &fitted)?;
         }
         let wanted = |found: &[String]| {
             let mut keys = self.source.iter().chain(&self.hold_out);

@@ -26,6 +26,7 @@ use percuss::{
 use crate::{
     by_models, cost,
     failure::Failure,
+    figure_formats::FigureArgs,
     file_list::FileList,
     output,
     progress::Progress,
@@ -98,6 +99,8 @@ pub struct Compare {
     /// Write numbers and figure to a folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    figures: FigureArgs,
     /// Unit system of compare.csv and compare.parquet [default: mm, m/s]
     #[arg(long, value_name = "SYSTEM", requires = "out", value_parser = unit_system())]
     units: Option<UnitSystem>,
@@ -149,7 +152,8 @@ impl Compare {
         let document = virtual_files.read(&self.case)?;
         let scenario = case::scenario(&document)?;
         let speeds = self.speeds(&scenario)?;
-        let folder = RunFolder::wanted(self.out.as_deref(), Some(&document))?;
+        let folder =
+            RunFolder::wanted(self.out.as_deref(), Some(&document), self.figures.formats())?;
         let models = by_models::named(&self.model);
         let of_models = models.iter().map(|model| cost::of_run(*model, &scenario));
         tell(of_models.sum::<Estimate>().times(speeds.len() as f64));

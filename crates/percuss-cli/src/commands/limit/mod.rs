@@ -20,12 +20,13 @@ use serde::Serialize;
 use crate::{
     by_models, cost,
     failure::Failure,
+    figure_formats::FigureArgs,
     file_list::FileList,
     output,
     progress::Progress,
     response::{ProgressCallback, Response, VirtualFiles},
     run_folder::RunFolder,
-    shot_data::note_unread,
+    test_data::note_unread,
 };
 
 /// Runs of a search for a limit, for the estimate of its cost.
@@ -53,7 +54,7 @@ limits of the same kind are known, otherwise the axisymmetric one. `recht_ipson`
 and `lambert_jonas` need a limit as input: only their residual velocities are
 listed.
 
-With --shots FILE.csv V50, the velocity at which the probability of perforation
+With --tests FILE.csv V50, the velocity at which the probability of perforation
 is 50 %, is estimated from test results: by maximum likelihood (probit and
 logit) with the 95 % likelihood-ratio interval, and as the mean of equal numbers
 of the highest partial and the lowest complete penetrations (extremes). The file
@@ -72,7 +73,7 @@ Examples:
   percuss limit my-case/scenario.toml --model plugging --out results
   percuss limit my-case/scenario.toml --fast
   percuss limit my-case/scenario.toml --velocity 100..400 --reference fine
-  percuss limit --shots tests.csv
+  percuss limit --tests tests.csv
 
 Exit codes: 0 ok, 2 bad input or no model applies, 4 a file could not be read or
 written";
@@ -82,7 +83,7 @@ written";
 #[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
 pub struct Limit {
     /// Case file; `percuss new` writes one to start from
-    #[arg(value_name = "CASE.toml", required_unless_present = "shots")]
+    #[arg(value_name = "CASE.toml", required_unless_present = "tests")]
     case: Option<PathBuf>,
     /// Search with this model only; may be given several times. `axi` runs on the mesh of the case when it is named
     #[arg(long, value_name = "NAME", requires = "case")]
@@ -115,9 +116,9 @@ pub struct Limit {
     fast: bool,
     /// CSV file of tests with partial or complete penetration
     #[arg(long, value_name = "FILE.csv")]
-    shots: Option<PathBuf>,
+    tests: Option<PathBuf>,
     /// Largest span of the velocities that V50 is the mean of [default: 125 ft/s]
-    #[arg(long, value_name = "SPEED", requires = "shots", value_parser = values::span)]
+    #[arg(long, value_name = "SPEED", requires = "tests", value_parser = values::span)]
     #[arg(allow_hyphen_values = true)]
     span: Option<f64>,
     /// Print one JSON object and nothing else on standard output
@@ -126,6 +127,8 @@ pub struct Limit {
     /// Write numbers and figures to a folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    figures: FigureArgs,
     /// No table and no progress: lines of NAME=VALUE pairs
     #[arg(long, short)]
     quiet: bool,
@@ -137,13 +140,13 @@ struct LimitRecord<'a> {
     #[serde(flatten)]
     limits: Option<&'a Limits>,
     v50: Option<&'a V50>,
-    shots: Option<&'a [Test]>,
+    tests: Option<&'a [Test]>,
 }
 
 /// Result of the command and the files that it wrote.
 struct LimitOutput {
     case: Option<(Scenario, Limits)>,
-    shots: Option<(Vec<Test>, V50)>,
+    tests: Option<(Vec<Test>, V50)>,
     files: Vec<PathBuf>,
 }
 
@@ -151,8 +154,8 @@ impl LimitOutput {
     fn record(&self) -> LimitRecord<'_> {
         LimitRecord {
             limits: self.case.as_ref().map(|(_, limits)| limits),
-            v50: self.shots.as_ref().map(|(_, v50)| v50),
-            shots: self.shots.as_ref().map(|(shots, _)| &**shots),
+            v50: self.tests.as_ref().map(|(_, v50)| v50),
+            tests: self.tests.as_ref().map(|(tests, _)| &**tests),
         }
     }
 }
@@ -169,7 +172,7 @@ impl Limit {
         let found = found?;
         self.print(&found)?;
         match &found.case {
-            Some((_, limits)) if found.shots.is_none() && no_model_applies(limits) => {
+            Some((_, limits)) if found.tests.is_none() && no_model_applies(limits) => {
                 Err(Failure::NoResult(table::reasons(limits)))
             }
             _ => Ok(()),
@@ -195,15 +198,19 @@ impl Limit {
         let document = self.case.as_ref().map(|path| virtual_files.read(path));
         let document = document.transpose()?;
         let scenario = document.as_ref().map(case::scenario).transpose()?;
-        let shots = self.shots.as_ref().map(v50::read).transpose()?;
-        let folder = RunFolder::wanted(self.out.as_deref(), document.as_ref())?;
-        let shots = shots.map(|file| {
-            if let Some(path) = &self.shots {
+        let tests = self.tests.as_ref().map(v50::read).transpose()?;
+        let folder = RunFolder::wanted(
+            self.out.as_deref(),
+            document.as_ref(),
+            self.figures.formats(),
+        )?;
+        let tests = tests.map(|file| {
+            if let Some(path) = &self.tests {
                 note_unread(path, &file.unread_columns);
             }
-            let shots = file.tests;
-            let v50 = v50::estimate(&shots, self.span.unwrap_or(v50::SPAN));
-            (shots, v50)
+            let tests = file.tests;
+            let v50 = v50::estimate(&tests, self.span.unwrap_or(v50::SPAN));
+            (tests, v50)
         });
         let case = match scenario {
             Some(scenario) => {
@@ -217,7 +224,7 @@ impl Limit {
         };
         let mut found = LimitOutput {
             case,
-            shots,
+            tests,
             files: Vec::new(),
         };
         if let Some(folder) = folder {
@@ -262,13 +269,12 @@ impl Limit {
         folder.put("limit.json", output::json(&found.record())?.as_bytes())?;
         if let Some((scenario, limits)) = &found.case {
             folder.add(percuss_report::write_limits(folder.path(), limits)?);
-            if let Some(figure) = percuss_report::limit_figure(scenario, limits) {
-                folder.add(figure.write(folder.path())?);
-            }
+            let figure = percuss_report::limit_figure(scenario, limits);
+            folder.add_figures(figure.as_slice())?;
         }
-        if let Some((shots, v50)) = &found.shots {
-            let name = self.shots.as_deref().map_or_else(String::new, stem);
-            folder.add(percuss_report::v50_figure(&name, shots, v50).write(folder.path())?);
+        if let Some((tests, v50)) = &found.tests {
+            let name = self.tests.as_deref().map_or_else(String::new, stem);
+            folder.add_figures(&[percuss_report::v50_figure(&name, tests, v50)])?;
         }
         Ok(folder.written())
     }
@@ -285,19 +291,19 @@ impl Limit {
                 .as_ref()
                 .map_or_else(String::new, |(_, limits)| table::lines(limits));
             text += &found
-                .shots
+                .tests
                 .as_ref()
                 .map_or_else(String::new, |(_, v50)| table::v50_lines(v50));
             return output::print(&text);
         }
         if let Some((scenario, limits)) = &found.case {
             // Without a result there are reasons only, and they are the error.
-            if found.shots.is_some() || !no_model_applies(limits) {
+            if found.tests.is_some() || !no_model_applies(limits) {
                 text += &table::head(scenario, limits, self.tolerance);
                 text += &table::text(limits);
             }
         }
-        if let (Some((_, v50)), Some(path)) = (&found.shots, &self.shots) {
+        if let (Some((_, v50)), Some(path)) = (&found.tests, &self.tests) {
             text += &table::v50_text(&path.display().to_string(), v50);
         }
         written.print_under(text)

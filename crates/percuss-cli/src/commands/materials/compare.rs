@@ -12,8 +12,8 @@ use serde::Serialize;
 
 use super::show;
 use crate::{
-    failure::Failure, file_list::FileList, output, response::Response, run_folder::RunFolder,
-    table::plain,
+    failure::Failure, figure_formats::FigureArgs, file_list::FileList, output, response::Response,
+    run_folder::RunFolder, table::plain,
 };
 
 const LONG_ABOUT: &str = "\
@@ -60,6 +60,8 @@ pub struct Compare {
     /// Write flow-curves.json and the figure to a folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    figures: FigureArgs,
 }
 
 /// A flow curve as JSON.
@@ -146,12 +148,12 @@ impl Compare {
 
     fn write(&self, computed: &[Computed<'_>]) -> Result<(Vec<Curve>, Vec<PathBuf>), Failure> {
         let curves: Vec<Curve> = computed.iter().map(Computed::record).collect();
-        let mut folder = RunFolder::wanted(self.out.as_deref(), None)?;
+        let mut folder = RunFolder::wanted(self.out.as_deref(), None, self.figures.formats())?;
         if let Some(folder) = &mut folder {
             folder.put("flow-curves.json", output::json(&curves)?.as_bytes())?;
             let shown: Vec<FlowCurve> = computed.iter().map(Computed::shown).collect();
             let figure = flow_figure(&shown, &self.caption());
-            folder.add(figure.write(folder.path())?);
+            folder.add_figures(&[figure])?;
         }
         Ok((curves, folder.map_or_else(Vec::new, RunFolder::written)))
     }

@@ -30,6 +30,7 @@ use self::{axisymmetric::Wanted, task::Task};
 use crate::{
     cost, diagnostic,
     failure::Failure,
+    figure_formats::FigureArgs,
     file_list::FileList,
     output,
     progress::Progress,
@@ -98,6 +99,7 @@ Examples:
   percuss run my-case/scenario.toml --reference fine
   percuss run my-case/scenario.toml --out results
   percuss run my-case/scenario.toml --out results --units mm-ms-kN
+  percuss run my-case/scenario.toml --out results --figures svg,pdf
   percuss run my-case/scenario.toml --json > result.json
   percuss run my-case/scenario.toml --quiet
   percuss run my-case/scenario.toml --out results --fields
@@ -135,6 +137,8 @@ pub struct Run {
     /// Write result, histories and figures to a folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    figures: FigureArgs,
     /// Unit system of the histories, profiles, gauges and fragments in DIR [default: mm, us, m/s, kN, MPa, J]
     #[arg(long, value_name = "SYSTEM", requires = "out", value_parser = unit_system())]
     units: Option<UnitSystem>,

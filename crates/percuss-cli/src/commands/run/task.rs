@@ -79,7 +79,7 @@ impl<'a> Task<'a> {
         // A model that does not apply makes no folder.
         let out = options.out.as_deref();
         let out = out.filter(|_| model::applicability(model, &scenario).is_ok());
-        let folder = RunFolder::wanted(out, Some(&document))?;
+        let folder = RunFolder::wanted(out, Some(&document), options.figures.formats())?;
         let fields = match out.filter(|_| model.has_fields()) {
             Some(out) => Some(Fields {
                 series: series(options, out, start.as_ref().map(|(header, _)| header))?,

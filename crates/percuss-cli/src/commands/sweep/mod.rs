@@ -172,7 +172,7 @@ impl Sweep {
         let folder = SweepFolder::open(out, &sweep, self.resume)?;
         let missing = folder.missing(part, parts);
         let count = |blocks: &mut dyn Iterator<Item = u64>| -> u64 {
-            blocks.map(|block| folder.manifest().shots_in(block)).sum()
+            blocks.map(|block| folder.manifest().runs_in(block)).sum()
         };
         let total = count(&mut (part - 1..sweep.blocks()).step_by(parts as usize));
         let due = count(&mut missing.iter().copied());
@@ -203,7 +203,7 @@ impl Sweep {
         if !complete? {
             return Err(Failure::SweepStopped {
                 done: total - due + state.done,
-                shots: total,
+                runs: total,
             });
         }
         let answers = match self.axisymmetric {
@@ -250,14 +250,14 @@ struct StatusRecord {
     manifest: Manifest,
     blocks_done: Vec<u64>,
     blocks_damaged: Vec<u64>,
-    shots_done: u64,
+    runs_done: u64,
     running: bool,
 }
 
 impl From<Status> for StatusRecord {
     fn from(status: Status) -> Self {
         Self {
-            shots_done: status.shots_done(),
+            runs_done: status.runs_done(),
             manifest: status.manifest,
             blocks_done: status.done,
             blocks_damaged: status.damaged,
@@ -295,8 +295,8 @@ fn print_status(folder: &Path) -> Result<(), Failure> {
             manifest.model,
             manifest.design
         )),
-        status.shots_done(),
-        manifest.shots,
+        status.runs_done(),
+        manifest.runs,
         status.done.len(),
         manifest.blocks(),
     );

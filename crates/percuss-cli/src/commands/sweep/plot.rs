@@ -6,7 +6,12 @@ use clap::{Args, ValueEnum};
 use percuss_report::sweep::{PlotRequest, PlotStyle, plot};
 use serde::Serialize;
 
-use crate::{failure::Failure, output, response::Response};
+use crate::{
+    failure::Failure,
+    figure_formats::{self, Formats},
+    output,
+    response::Response,
+};
 
 const LONG_ABOUT: &str = "\
 Draw a result of a sweep, as SVG and PNG: curves versus one parameter, or two
@@ -34,6 +39,9 @@ pub struct Plot {
     /// Folder for the figure [default: the first folder of results]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Formats of the figure, separated by commas, of svg, png and pdf [default: svg,png]
+    #[arg(long, value_name = "FORMATS", value_parser = figure_formats::formats)]
+    figures: Option<Formats>,
     /// Column of the result to draw [default: the first column with values]
     #[arg(long, value_name = "COLUMN")]
     quantity: Option<String>,
@@ -90,7 +98,10 @@ impl Plot {
             y: self.y.clone(),
         };
         let figure = plot(&self.folders, &request)?;
-        let files = figure.write(self.out.as_ref().unwrap_or(&self.folders[0]))?;
+        let files = figure.write(
+            self.out.as_ref().unwrap_or(&self.folders[0]),
+            figure_formats::wanted(self.figures.as_ref()),
+        )?;
         Ok((figure.title, files))
     }
 }

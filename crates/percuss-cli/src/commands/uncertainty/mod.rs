@@ -26,6 +26,7 @@ use percuss::{
 use crate::{
     cost,
     failure::Failure,
+    figure_formats::FigureArgs,
     file_list::FileList,
     output,
     progress::Progress,
@@ -121,6 +122,8 @@ pub struct Uncertainty {
     /// Write numbers and figures to a folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    figures: FigureArgs,
     /// No tables and no progress: one line of NAME=VALUE pairs per quantity
     #[arg(long, short)]
     quiet: bool,
@@ -181,7 +184,11 @@ impl Uncertainty {
         stop: &AtomicBool,
         on_progress: ProgressCallback<'_>,
     ) -> Result<(Analysis, Vec<PathBuf>), Failure> {
-        let folder = RunFolder::wanted(self.out.as_deref(), Some(&task.document))?;
+        let folder = RunFolder::wanted(
+            self.out.as_deref(),
+            Some(&task.document),
+            self.figures.formats(),
+        )?;
         let found = self.compute(task, stop, on_progress)?;
         let files = match folder {
             Some(folder) => write(folder, &task.study, &found)?,

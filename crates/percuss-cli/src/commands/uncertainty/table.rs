@@ -38,7 +38,7 @@ pub fn lines(found: &Uncertainty) -> String {
         let s = &q.statistics;
         let at = |percent| significant(s.percentile(percent).value, 6);
         format!(
-            "quantity={} mean={} standard_deviation={} p05={} p50={} p95={} shots={} failed={} perforation={probability}\n",
+            "quantity={} mean={} standard_deviation={} p05={} p50={} p95={} runs={} failed={} perforation={probability}\n",
             q.quantity,
             significant(s.mean, 6),
             significant(s.standard_deviation, 6),

@@ -1,4 +1,4 @@
-//! Which shots can be computed side by side.
+//! Which runs can be computed side by side.
 
 use super::bundle::law;
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
     scenario::{Plate, Scenario, TargetBody},
 };
 
-/// Whether a shot is one of those that can be computed side by side: a column of one layer, logarithmic strain, border shear by
+/// Whether a run is one of those that can be computed side by side: a column of one layer, logarithmic strain, border shear by
 /// friction, no damping and no failure, and strength laws whose equations ride in lanes.
 pub fn accepts(scenario: &Scenario) -> bool {
     let rides = |material: &Material| law(material).is_some();

@@ -1,4 +1,4 @@
-//! The state of eight shots on meshes alike.
+//! The state of eight runs on meshes alike.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ use crate::{
     scenario::{Scenario, TargetBody},
 };
 
-/// What shots must have in common to scheduler together.
+/// What runs must have in common to be scheduled together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Mesh {
     /// Elements of projectile and target.
@@ -107,7 +107,7 @@ percuss_core::per_lane! {
     }
 }
 
-/// Eight shots.
+/// Eight runs.
 #[derive(Debug)]
 pub(super) struct Bundle {
     pub(super) mesh: Mesh,

@@ -1,4 +1,4 @@
-//! How a shot gets into a lane and out of it again.
+//! How a run gets into a lane and out of it again.
 
 use super::{
     bundle::{Body, Bundle},
@@ -20,7 +20,7 @@ use crate::{
 const CLOSE: f64 = 1.0 + 1e-9;
 
 impl Bundle {
-    /// Puts a shot at the moment of impact into a lane.
+    /// Puts a run at the moment of impact into a lane.
     pub(super) fn load_lane(&mut self, lane: usize, run: &ColumnRun<'_>) {
         let state = &run.solver.state;
         for (i, from) in state.nodes.iter().enumerate() {
@@ -63,7 +63,7 @@ impl Bundle {
         self.scalars.set_lane(lane, RunScalars::of(run));
     }
 
-    /// Puts a lane into the state of its shot; false when an element has no length any more.
+    /// Puts a lane into the state of its run; false when an element has no length any more.
     pub(super) fn store_lane(&self, lane: usize, run: &mut ColumnRun<'_>) -> bool {
         let state = &mut run.solver.state;
         let mut is_sound = true;

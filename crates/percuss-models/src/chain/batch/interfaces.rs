@@ -10,7 +10,7 @@ pub(super) struct Interface {
     pub(super) ahead: usize,
     pub(super) behind: usize,
     pub(super) lane: usize,
-    /// Its place among the interfaces of the shot.
+    /// Its place among the interfaces of the run.
     pub(super) place: usize,
     pub(super) closed: bool,
 }

@@ -1,7 +1,7 @@
-//! Many independent shots at once: eight of them side by side, each in a lane of the processor's vector unit.
+//! Many independent runs at once: eight of them side by side, each in a lane of the processor's vector unit.
 //!
-//! [`Bundle`] advances the state of eight shots, lane by lane, by the functions of the single run and in its order: no lane knows
-//! of another one, so that a shot ends with the same bits in whatever company it was computed. Whatever is rare (the end of a shot,
+//! [`Bundle`] advances the state of eight runs, lane by lane, by the functions of the single run and in its order: no lane knows
+//! of another one, so that a run ends with the same bits in whatever company it was computed. Whatever is rare (the end of a run,
 //! erosion) is left to the single run: the lane's state is put into its [`ColumnRun`], and what that makes of it is put back.
 
 // Loops over the lanes run along many arrays at once.
@@ -47,7 +47,7 @@ use crate::{
     solver::{Control, Progress},
 };
 
-/// Stages of [`AUDIT_INTERVAL`] steps that an empty lane waits for others to end: shots that start together have their waves in
+/// Stages of [`AUDIT_INTERVAL`] steps that an empty lane waits for others to end: runs that start together have their waves in
 /// the same places.
 const REFILL_DELAY: u32 = 4;
 
@@ -55,14 +55,14 @@ const REFILL_DELAY: u32 = 4;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stopped;
 
-/// A shot in a lane.
+/// A run in a lane.
 struct LaneRun<'a> {
-    /// Its place among the shots.
-    shot: usize,
+    /// Its place among the runs.
+    index: usize,
     run: ColumnRun<'a>,
 }
 
-/// Results of shots that [`accepts`] accepts, in their order: those of a single run.
+/// Results of runs that [`accepts`] accepts, in their order: those of a single run.
 ///
 /// # Errors
 /// [`Stopped`].
@@ -73,13 +73,13 @@ pub fn run(
     let mut results: Vec<Option<Result<RunResult, Error>>> = Vec::new();
     results.resize_with(scenarios.len(), || None);
     let mut meshes: BTreeMap<Mesh, Vec<usize>> = BTreeMap::new();
-    for (shot, scenario) in scenarios.iter().enumerate() {
-        meshes.entry(Mesh::of(scenario)).or_default().push(shot);
+    for (index, scenario) in scenarios.iter().enumerate() {
+        meshes.entry(Mesh::of(scenario)).or_default().push(index);
     }
-    for (mesh, mut shots) in meshes {
-        // Shots that resemble each other have their waves in the same places: less is computed in vain. The slowest goes first.
-        shots.sort_by(|&a, &b| {
-            let [a, b] = [a, b].map(|shot| scenarios[shot]);
+    for (mesh, mut runs) in meshes {
+        // Runs that resemble each other have their waves in the same places: less is computed in vain. The slowest goes first.
+        runs.sort_by(|&a, &b| {
+            let [a, b] = [a, b].map(|index| scenarios[index]);
             let by_reach = reach(a).total_cmp(&reach(b));
             by_reach.then(a.impact_velocity.total_cmp(&b.impact_velocity))
         });
@@ -90,10 +90,10 @@ pub fn run(
             results: &mut results,
             stop,
         };
-        scheduler.run(shots)?;
+        scheduler.run(runs)?;
     }
     let results = results.into_iter();
-    // Every shot is in one of the lists and leaves its lane with a result.
+    // Every run is in one of the lists and leaves its lane with a result.
     Ok(results.flatten().collect())
 }
 
@@ -157,14 +157,14 @@ impl BatchScheduler<'_, '_> {
     fn fill_lanes(&mut self, waiting: &mut Vec<usize>) {
         for (lane, seat) in self.lanes.iter_mut().enumerate() {
             if seat.is_none()
-                && let Some(shot) = waiting.pop()
+                && let Some(index) = waiting.pop()
             {
-                match ColumnRun::new(self.scenarios[shot], &mut Control::default()) {
+                match ColumnRun::new(self.scenarios[index], &mut Control::default()) {
                     Ok(run) => {
                         self.bundle.load_lane(lane, &run);
-                        *seat = Some(LaneRun { shot, run });
+                        *seat = Some(LaneRun { index, run });
                     }
-                    Err(error) => self.results[shot] = Some(Err(error)),
+                    Err(error) => self.results[index] = Some(Err(error)),
                 }
             }
         }
@@ -218,7 +218,7 @@ impl BatchScheduler<'_, '_> {
 
     /// Empties a lane whose single run goes on from here.
     fn leave(&mut self, lane: usize) -> Result<(), Stopped> {
-        let Some(LaneRun { shot, run }) = self.lanes[lane].take() else {
+        let Some(LaneRun { index, run }) = self.lanes[lane].take() else {
             return Ok(());
         };
         self.bundle.clear_lane(lane);
@@ -227,7 +227,7 @@ impl BatchScheduler<'_, '_> {
             progress: Some(&mut watch),
             ..Control::default()
         };
-        self.keep(shot, run.run(&mut control))
+        self.keep(index, run.run(&mut control))
     }
 
     /// Empties a lane. What fails there does so in the single run too, which knows what comes next.
@@ -236,7 +236,7 @@ impl BatchScheduler<'_, '_> {
         lane: usize,
         result: Option<Result<RunResult, Error>>,
     ) -> Result<(), Stopped> {
-        let Some(LaneRun { shot, .. }) = self.lanes[lane].take() else {
+        let Some(LaneRun { index, .. }) = self.lanes[lane].take() else {
             return Ok(());
         };
         self.bundle.clear_lane(lane);
@@ -246,17 +246,17 @@ impl BatchScheduler<'_, '_> {
                 progress: Some(&mut watch),
                 ..Control::default()
             };
-            ColumnRun::new(self.scenarios[shot], &mut control)?.run(&mut control)
+            ColumnRun::new(self.scenarios[index], &mut control)?.run(&mut control)
         };
         let result = result.unwrap_or_else(alone);
-        self.keep(shot, result)
+        self.keep(index, result)
     }
 
-    fn keep(&mut self, shot: usize, result: Result<RunResult, Error>) -> Result<(), Stopped> {
+    fn keep(&mut self, index: usize, result: Result<RunResult, Error>) -> Result<(), Stopped> {
         if let Err(Error::Cancelled { .. }) = result {
             return Err(Stopped);
         }
-        self.results[shot] = Some(result);
+        self.results[index] = Some(result);
         Ok(())
     }
 }

@@ -17,14 +17,14 @@ fn shot(rod: &str, target: &str, velocity: f64, options: &str) -> Scenario {
 
 const PLATE: &str = "material = 'aluminium-2024-t351', thickness = '25 mm'";
 
-/// Shots over speeds, materials, meshes, closures, back faces and ends.
-fn shots() -> Vec<Scenario> {
+/// Runs over speeds, materials, meshes, closures, back faces and ends.
+fn runs() -> Vec<Scenario> {
     let coarse = "projectile_elements = 10\ntarget_elements = 20";
-    let mut shots = Vec::new();
+    let mut runs = Vec::new();
     for velocity in [20.0, 150.0, 190.0, 230.0, 310.0, 400.0] {
         for more in ["", "border_shear = 0.0", "constraint_factor = 1.0"] {
             let options = format!("{coarse}\n{more}");
-            shots.push(shot("copper", PLATE, velocity, &options));
+            runs.push(shot("copper", PLATE, velocity, &options));
         }
     }
     let free = "material = 'aluminium-2024-t351', thickness = '9 mm', back_face = 'free'";
@@ -89,13 +89,13 @@ fn shots() -> Vec<Scenario> {
             "erosion_strain = 0.6\nborder_shear = 0.0",
         ),
     ] {
-        shots.push(shot(rod, target, velocity, &format!("{coarse}\n{more}")));
+        runs.push(shot(rod, target, velocity, &format!("{coarse}\n{more}")));
     }
     for (rod, target) in [(1, 1), (2, 3), (7, 5)] {
         let mesh = format!("projectile_elements = {rod}\ntarget_elements = {target}");
-        shots.push(shot("copper", PLATE, 230.0, &mesh));
+        runs.push(shot("copper", PLATE, 230.0, &mesh));
     }
-    shots
+    runs
 }
 
 /// Numbers from 0 to 1 without a pattern.
@@ -181,25 +181,25 @@ fn words(result: &Result<crate::outcome::RunResult, Error>) -> String {
     format!("{result:?}")
 }
 
-fn together(shots: &[&Scenario]) -> Vec<String> {
-    let results = run(shots, &AtomicBool::new(false)).unwrap();
-    assert_eq!(results.len(), shots.len());
+fn together(runs: &[&Scenario]) -> Vec<String> {
+    let results = run(runs, &AtomicBool::new(false)).unwrap();
+    assert_eq!(results.len(), runs.len());
     results.iter().map(words).collect()
 }
 
 #[test]
-fn shots_side_by_side_end_with_the_bits_of_single_runs() {
-    let shots = shots();
-    assert!(shots.len() > 3 * LANES && shots.iter().all(accepts));
-    let results = together(&shots.iter().collect::<Vec<_>>());
-    for (shot, result) in shots.iter().zip(&results) {
+fn runs_side_by_side_end_with_the_bits_of_single_runs() {
+    let runs = runs();
+    assert!(runs.len() > 3 * LANES && runs.iter().all(accepts));
+    let results = together(&runs.iter().collect::<Vec<_>>());
+    for (shot, result) in runs.iter().zip(&results) {
         let alone = ColumnRun::new(shot, &mut Control::default())
             .unwrap()
             .run(&mut Control::default());
         assert_eq!(result, &words(&alone), "{:?}", shot.options.chain);
     }
     let said = |what: &str| results.iter().filter(|words| words.contains(what)).count();
-    // The shots are worth something as a test only if they end in many ways.
+    // The runs are worth something as a test only if they end in many ways.
     for outcome in ["Rebounded", "Perforated", "StepLimit", "EndTime"] {
         assert!(said(outcome) > 0, "none is {outcome}");
     }
@@ -225,8 +225,8 @@ fn shots_side_by_side_end_with_the_bits_of_single_runs() {
 
 #[test]
 fn a_shot_knows_nothing_of_its_company() {
-    let shots = shots();
-    let all: Vec<&Scenario> = shots.iter().collect();
+    let runs = runs();
+    let all: Vec<&Scenario> = runs.iter().collect();
     let expected = together(&all);
     let mut backwards: Vec<&Scenario> = all.iter().rev().copied().collect();
     let mut results = together(&backwards);
@@ -244,11 +244,11 @@ fn a_shot_knows_nothing_of_its_company() {
 #[test]
 fn every_strength_law_has_the_bits_of_single_runs() {
     let mut chance = Chance(5);
-    let shots: Vec<Scenario> = (0..120).map(|_| chance.shot()).collect();
-    assert!(shots.iter().all(accepts));
-    let results = together(&shots.iter().collect::<Vec<_>>());
+    let runs: Vec<Scenario> = (0..120).map(|_| chance.shot()).collect();
+    assert!(runs.iter().all(accepts));
+    let results = together(&runs.iter().collect::<Vec<_>>());
     let mut penetrated = 0;
-    for (shot, result) in shots.iter().zip(&results) {
+    for (shot, result) in runs.iter().zip(&results) {
         let alone = ColumnRun::new(shot, &mut Control::default())
             .and_then(|run| run.run(&mut Control::default()));
         penetrated += usize::from(alone.is_ok());
@@ -258,7 +258,7 @@ fn every_strength_law_has_the_bits_of_single_runs() {
 }
 
 #[test]
-fn shots_that_need_more_are_left_to_the_single_run() {
+fn runs_that_need_more_are_left_to_the_single_run() {
     for more in [
         "damping_ratio = 0.1",
         "local_damping = 0.1",
@@ -274,7 +274,7 @@ fn shots_that_need_more_are_left_to_the_single_run() {
 
 #[test]
 fn a_stopped_batch_says_so() {
-    let shots = shots();
-    let all: Vec<&Scenario> = shots.iter().collect();
+    let runs = runs();
+    let all: Vec<&Scenario> = runs.iter().collect();
     assert!(run(&all, &AtomicBool::new(true)).is_err());
 }

@@ -13,7 +13,7 @@ const POINTS: usize = 4000;
 const INTERVALS: usize = 60;
 /// Largest number of curves.
 const MOST: usize = 24;
-/// How far below zero, or the least value, shots without a value stand, as a part of the range.
+/// How far below zero, or the least value, runs without a value stand, as a part of the range.
 const FOOT: f64 = 0.05;
 /// Counts runs of one kind.
 type CountOf = fn(&Group) -> u32;
@@ -138,7 +138,7 @@ impl Places {
         }
     }
 
-    /// Number of a shot's place.
+    /// Number of a run's place.
     fn number(&self, value: f64, row: usize) -> usize {
         match self {
             Self::List(values) => values.partition_point(|other| *other < value),

@@ -74,8 +74,8 @@ impl Side {
         let axis = data.axis(parameter);
         let cells = values.len();
         if !data.is_list(parameter) {
-            let shots = data.rows.values.len() as f64;
-            let cells = (shots / RUNS).sqrt().clamp(2.0, MOST_CELLS) as usize;
+            let runs = data.rows.values.len() as f64;
+            let cells = (runs / RUNS).sqrt().clamp(2.0, MOST_CELLS) as usize;
             let range = match (values.first(), values.last()) {
                 (Some(low), Some(high)) if low < high => (*low, *high),
                 (Some(low), _) => (low - 0.5, low + 0.5),

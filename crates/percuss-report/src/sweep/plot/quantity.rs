@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// Columns of numbers that are drawn only where they are named.
-const SECOND: [&str; 3] = ["shot", "band_low", "band_high"];
+const SECOND: [&str; 3] = ["run", "band_low", "band_high"];
 
 /// Requested column, or the first result of the sweep.
 pub(super) fn choose(parts: &Parts<'_>, wanted: Option<&str>) -> Result<String, ReportError> {
