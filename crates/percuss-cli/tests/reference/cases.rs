@@ -20,11 +20,11 @@ impl Card {
         let title = title.unwrap_or_else(|| panic!("cases/{name}/README.md has no title"));
         let text = paragraphs.next().unwrap_or_default().replace('\n', " ");
         let end = sentence_end(&text);
-        let picture = readme
+        let mut pictures = readme
             .split("](")
             .skip(1)
             .filter_map(|rest| rest.split(')').next());
-        let picture = picture.filter(|place| place.ends_with(".png")).next();
+        let picture = pictures.find(|place| place.ends_with(".png"));
         Self {
             picture: picture.map(|place| format!("../../cases/{name}/{place}")),
             sentence: plain(&text[..end]),

@@ -30,7 +30,7 @@ Every number above, null where a model does not give it, and:
 
 | column | meaning |
 |---|---|
-| `run` | number of the shot, from 0 |
+| `run` | number of the run, from 0 |
 | an input | key and unit, such as `projectile.impact_velocity_m_s`; the column of an option holds its words |
 | `outcome`, `termination`, `scheme`, `target_resistance`, `criterion` | the texts above |
 | `expected_error`, `expected_error_low`, `expected_error_high` | estimated error of the depth: median, 10th and 90th percentile |

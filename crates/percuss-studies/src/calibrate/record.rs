@@ -169,7 +169,7 @@ fn stamped(problem: &Problem, calibration: &Calibration, id: &str, material: Mat
             from: id.to_owned(),
             model: calibration.model.to_owned(),
             sources,
-            tests: tests,
+            tests,
             percuss_version: calibration.percuss_version.to_owned(),
             seed: calibration.seed,
         }),

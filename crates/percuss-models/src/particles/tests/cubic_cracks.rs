@@ -7,7 +7,7 @@ use super::{
 use crate::{
     particles::{
         bonded::Bonded,
-        cubic::{CUT, CubicBody, SIDE, lattice_factor, softening},
+        cubic::{CUT, CubicBody, lattice_factor, softening},
         packing::Moved,
     },
     solver::Control,
