@@ -322,7 +322,8 @@ def export(case: CaseLike, *, to: str, out: Path) -> dict[str, Any]:
 
     Examples
     --------
-    >>> percuss.export("cases/lattice-strip-on-wall/scenario.toml", to="lammps", out="deck")["bonds"]
+    >>> import tempfile
+    >>> percuss.export("cases/lattice-strip-on-wall/scenario.toml", to="lammps", out=tempfile.mkdtemp())["bonds"]
     46382
     """
     found: dict[str, Any] = answer("export", of=case, to=to, out=out)
