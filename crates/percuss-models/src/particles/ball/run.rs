@@ -299,7 +299,6 @@ impl<'a> Solver<'a> for Collision<'a> {
 
     fn complete(&self, result: &mut RunResult, _: &RunMonitor) {
         result.residual_velocity = Some(self.signed_speed());
-        result.projectile_final_length = Some(2.0 * self.projectile().radius);
         if self.has_obliquity() {
             let [x, z] = self.projectile().velocity;
             result.flight_direction = Some(x.atan2(z));
