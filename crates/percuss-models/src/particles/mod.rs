@@ -51,11 +51,14 @@ const WORK_IN_SPACE: WorkRate = WorkRate {
     bytes: 900.0,
     rate: 5e6,
 };
-/// Memory of a particle with the fields that show it [bytes], twice as much where particles are moved, and particles times steps per second of processor time.
+/// Memory of a particle with the files that show it [bytes], and particles times steps per second of processor time.
 const WORK: WorkRate = WorkRate {
-    bytes: 560.0,
+    bytes: 300.0,
     rate: 20e6,
 };
+/// Memory of a particle of an irregular packing over that of the lattice: of a plane body, and of one in space.
+const IRREGULAR: [f64; 2] = [1.6, 2.0];
+
 /// Lattice of bonded particles.
 #[derive(Debug, Clone, Copy)]
 pub struct Particles;
@@ -138,13 +141,13 @@ impl Model for Particles {
             return ball::estimate(scenario);
         }
         let (time_step, end, limits) = setup::expected(scenario);
-        let work = match scenario.options.particles.space() {
-            Space::ThreeDimensional => WORK_IN_SPACE,
-            Space::PlaneStrain | Space::PlaneStress => WORK,
+        let (work, irregular) = match scenario.options.particles.space() {
+            Space::ThreeDimensional => (WORK_IN_SPACE, IRREGULAR[1]),
+            Space::PlaneStrain | Space::PlaneStress => (WORK, IRREGULAR[0]),
         };
         let mut work = work.of(particles(scenario));
         if has_seeds(scenario) {
-            work.bytes *= 2.0;
+            work.bytes *= irregular;
         }
         Estimate::of_time(work, (end, time_step), limits)
     }

@@ -19,7 +19,7 @@ use crate::{
     solver::{
         Control, Particle,
         archive::Archive,
-        frames::Fields,
+        frames::{Fields, Points},
         gauge::Gauge,
         interface::{Audit, BalanceTolerance, Extremes, Retry, Solver},
         limits::Limits,
@@ -274,7 +274,9 @@ impl<'a> Solver<'a> for Collision<'a> {
         Fields::Particles {
             cell: 2.0 * self.projectile().radius / f64::from(POINTS),
             bonds: Vec::new(),
-            bodies: finite.map(|ball| Cow::Owned(points(ball))).collect(),
+            bodies: finite
+                .map(|ball| Points::Kept(Cow::Owned(points(ball))))
+                .collect(),
             across: None,
         }
     }
