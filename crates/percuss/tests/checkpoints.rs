@@ -27,6 +27,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("cracks from a notch", "particles", NOTCHED),
     ("disc", "particles", DISC),
     ("bonds that fail by their stress", "particles", BY_STRESS),
+    ("balls with friction", "particles", BALLS),
 ];
 
 const COLUMN: &str = r#"
@@ -112,6 +113,14 @@ const DISC: &str = concat!(
     projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "20 m/s" }
     target = { material = "brittle", thickness = "10 mm", back_face = "free" }
     particles = { spacing = "0.7 mm", outline = "disc", end_time = "40 us" }
+"#,
+    hard_and_brittle!()
+);
+const BALLS: &str = concat!(
+    r#"
+    projectile = { material = "hard", mass = "0.2827433 g", diameter = "6 mm", impact_velocity = "5 m/s", nose = "hemisphere", obliquity = "20 deg" }
+    target = { material = "hard", thickness = "5 mm", back_face = "free" }
+    particles = { contact = "hertz", outline = "ball" }
 "#,
     hard_and_brittle!()
 );

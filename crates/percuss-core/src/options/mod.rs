@@ -47,7 +47,9 @@ pub use lambert_jonas::LambertJonasOptions;
 pub use lanz_odermatt::LanzOdermattOptions;
 pub use momentum_balance::MomentumBalanceOptions;
 pub use number_or_name::{ConstraintFactor, ErosionStrain};
-pub use particles::{FailureCriterion, Notch, Outline, PackingKind, ParticlesOptions, Space};
+pub use particles::{
+    FailureCriterion, Notch, Outline, PackingKind, ParticleContact, ParticlesOptions, Space,
+};
 pub use plate_cavity::{CavityShape, PlateCavityOptions};
 pub use plugging::PluggingOptions;
 pub use poncelet::PonceletOptions;

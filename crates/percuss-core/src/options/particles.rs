@@ -18,11 +18,13 @@ use crate::{
 pub struct ParticlesOptions {
     /// Plane in which the bodies deform, or space.
     pub space: Option<Space>,
+    /// What projectile and target are made of.
+    pub contact: Option<ParticleContact>,
     /// Distance of neighbouring particles [m]; it is reduced until whole rows fill the body.
     pub spacing: Option<Length>,
     /// Width of the target across the direction of impact [m].
     pub width: Option<Length>,
-    /// Outline of a target in the plane.
+    /// Outline of a target.
     pub outline: Option<Outline>,
     /// Straight cuts through the lattice, free of stress at the start; none when not given.
     pub notches: Option<Vec<Notch>>,
@@ -38,9 +40,9 @@ pub struct ParticlesOptions {
     pub softening: Option<f64>,
     /// What starts the softening of a bond.
     pub failure_criterion: Option<FailureCriterion>,
-    /// Part of the velocity with which two pieces that collide part.
+    /// Part of the velocity with which two pieces, or balls, that collide part.
     pub restitution: Option<f64>,
-    /// Coefficient of friction between pieces.
+    /// Coefficient of friction between pieces, or of balls.
     pub friction: Option<f64>,
     /// Time step as a part of the largest stable one.
     pub courant: Option<f64>,
@@ -76,7 +78,7 @@ pub enum FailureCriterion {
     PrincipalStress,
 }
 
-/// Outline of a target in the plane.
+/// Outline of a target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outline {
@@ -85,6 +87,20 @@ pub enum Outline {
     Plate,
     /// A disc with the thickness of the target as diameter, struck at its rim.
     Disc,
+    /// A ball with the thickness of the target as diameter, of `contact = "hertz"`.
+    Ball,
+}
+
+/// What projectile and target are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ParticleContact {
+    /// One is a lattice of particles, the other is rigid.
+    #[default]
+    Lattice,
+    /// The projectile is one elastic ball, on a rigid wall, a half-space or another ball: forces by Hertz and Mindlin, with friction and
+    /// rotation.
+    Hertz,
 }
 
 /// A straight cut through a lattice: no bond crosses it.
@@ -164,8 +180,10 @@ const FRICTION: Limits = Limits { min: 0.0, max: 2.0 };
 defaults! { ParticlesOptions, particles_in_schema {
     /// Plane in which the bodies deform, or space.
     space: Space = Space::PlaneStrain;
-    /// Outline of a target in the plane.
+    /// Outline of a target.
     outline: Outline = Outline::Plate;
+    /// What projectile and target are made of.
+    contact: ParticleContact = ParticleContact::Lattice;
     /// Time step as a part of the largest stable one.
     courant: f64 = 0.5;
     /// Time steps after which a run is ended.
@@ -176,9 +194,9 @@ defaults! { ParticlesOptions, particles_in_schema {
     seed: u64 = 1;
     /// What starts the softening of a bond.
     failure_criterion: FailureCriterion = FailureCriterion::Elongation;
-    /// Part of the velocity with which two pieces that collide part.
+    /// Part of the velocity with which two pieces, or balls, that collide part.
     restitution: f64 = 0.9;
-    /// Coefficient of friction between pieces.
+    /// Coefficient of friction between pieces, or of balls.
     friction: f64 = 0.3;
     depending fracture: "`true` where the material of the lattice has a table `fracture`, otherwise `false`";
     depending packing: "`\"irregular\"` where bonds break, otherwise the regular lattice: `\"hexagonal\"`, or `\"body-centred-cubic\"` in space";
@@ -211,8 +229,13 @@ impl ParticlesOptions {
                 check.number(key, number, limits);
             }
         }
-        self.check_use(check);
-        self.check_space(check);
+        match self.contact() {
+            ParticleContact::Hertz => self.check_balls(check),
+            ParticleContact::Lattice => {
+                self.check_use(check);
+                self.check_space(check);
+            }
+        }
         if let Some(time) = self.end_time {
             check.quantity("end_time", time, limits::TIME);
         }
@@ -226,8 +249,54 @@ impl ParticlesOptions {
         self.check_notches(check);
     }
 
+    /// Reports keys that balls of one particle do not have.
+    fn check_balls(&self, check: &mut Check<'_>) {
+        for (key, given) in [
+            ("spacing", self.spacing.is_some()),
+            ("width", self.width.is_some()),
+            ("notches", self.notches.is_some()),
+            ("packing", self.packing.is_some()),
+            ("amplitude", self.amplitude.is_some()),
+            ("seed", self.seed.is_some()),
+            ("fracture", self.fracture.is_some()),
+            ("softening", self.softening.is_some()),
+            ("failure_criterion", self.failure_criterion.is_some()),
+        ] {
+            if given {
+                let message = format!(
+                    "`{key}` has no effect: with `contact = \"hertz\"` every body is one particle"
+                );
+                check.fail(key, message, "remove one of the two keys");
+            }
+        }
+        if self
+            .space
+            .is_some_and(|space| space != Space::ThreeDimensional)
+        {
+            let message = format!(
+                "`contact = \"hertz\"` is that of balls, and there are none in {}",
+                self.space().describe()
+            );
+            check.fail("space", message, "allowed: \"3d\"; or remove the key");
+        }
+    }
+
     fn check_outline(&self, check: &mut Check<'_>, target: &Target) {
-        if self.outline() != Outline::Disc {
+        let has_balls = self.contact() == ParticleContact::Hertz;
+        let (other, name, own) = match has_balls {
+            true => (Outline::Disc, "disc", "ball"),
+            false => (Outline::Ball, "ball", "disc"),
+        };
+        if self.outline == Some(other) {
+            let message = format!(
+                "\"{name}\" is no outline of a target with `contact = \"{}\"`",
+                if has_balls { "hertz" } else { "lattice" }
+            );
+            let allowed = format!("allowed: \"plate\", \"{own}\"");
+            check.fail("outline", message, allowed);
+            return;
+        }
+        if self.outline() == Outline::Plate {
             return;
         }
         if !target.is_solid() {

@@ -42,6 +42,58 @@ pub struct Across {
     pub section: f64,
 }
 
+/// Particles of a body that a model makes for a frame, one after the other: nobody needs all of them at once.
+pub trait PointSource: std::fmt::Debug {
+    /// Their number.
+    fn len(&self) -> usize;
+
+    /// Whether there are none.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Them, in one order.
+    fn points(&self) -> Box<dyn Iterator<Item = Particle> + '_>;
+}
+
+/// Particles of a body.
+#[derive(Debug, Clone)]
+pub enum Points<'a> {
+    /// Those that a model has.
+    Kept(Cow<'a, [Particle]>),
+    /// Those that it makes.
+    Made(&'a dyn PointSource),
+}
+
+impl Points<'_> {
+    /// Their number, with those that have left the body.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Kept(particles) => particles.len(),
+            Self::Made(source) => source.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Them, in order.
+    pub fn iter(&self) -> Box<dyn Iterator<Item = Particle> + '_> {
+        match self {
+            Self::Kept(particles) => Box::new(particles.iter().copied()),
+            Self::Made(source) => source.points(),
+        }
+    }
+}
+
+impl FromIterator<Particle> for Points<'_> {
+    fn from_iter<I: IntoIterator<Item = Particle>>(particles: I) -> Self {
+        Self::Kept(particles.into_iter().collect())
+    }
+}
+
 /// Where a model has its fields.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
@@ -51,7 +103,7 @@ pub enum Fields<'a> {
         /// Side of a cell of the grid [m].
         cell: f64,
         /// Particles of each body: the projectile, then the layers of the target.
-        bodies: Vec<Cow<'a, [Particle]>>,
+        bodies: Vec<Points<'a>>,
         /// Bonds between particles; none of a model that has none.
         bonds: Vec<Bond>,
         /// What particles in space have beside their plane; none of plane and axisymmetric bodies.
@@ -63,8 +115,8 @@ pub enum Fields<'a> {
 
 impl Fields<'_> {
     /// Particles that have not left, each with the index of its body; none of a model that has elements.
-    pub fn particles(&self) -> impl Iterator<Item = (usize, &Particle)> {
-        let bodies: &[Cow<'_, [Particle]>] = match self {
+    pub fn particles(&self) -> impl Iterator<Item = (usize, Particle)> {
+        let bodies: &[Points<'_>] = match self {
             Self::Particles { bodies, .. } => bodies,
             Self::Elements(_) => &[],
         };
@@ -75,7 +127,7 @@ impl Fields<'_> {
     }
 
     /// The same, of bodies in space only those of the section that a picture shows.
-    pub fn section(&self) -> impl Iterator<Item = (usize, &Particle)> {
+    pub fn section(&self) -> impl Iterator<Item = (usize, Particle)> {
         let across = match self {
             Self::Particles { across, .. } => across.as_ref(),
             Self::Elements(_) => None,

@@ -7,7 +7,7 @@ use super::{
     fracture::Softening,
     lattice::{DIRECTIONS, Lattice, ROW},
     packing::{Packing, facet_weight},
-    row::{Damage, Rests, RowMake, RowMotion, RowState},
+    row::{Damage, Halo, Rests, RowMake, RowMotion, RowState},
     slot::Slot,
 };
 use crate::{Error, solver::Control};
@@ -23,8 +23,8 @@ pub(super) struct Body {
     pub(super) rows: Vec<RowMake>,
     pub(super) state: Vec<RowState>,
     pub(super) motion: Vec<RowMotion>,
-    /// Displacements after the step that is computed.
-    pub(super) next: Vec<RowState>,
+    /// Copies of rows around those of each task, for the step that is computed.
+    pub(super) halos: Vec<Halo>,
     /// Row and places of the particles that cannot move along the normal of the struck face, if any.
     pub(super) held: Option<(usize, Range<usize>)>,
     /// Area of all triangles [m2].
@@ -160,14 +160,11 @@ impl Body {
             rows: made,
             state,
             motion,
-            next: Vec::new(),
+            halos: Vec::new(),
             held: None,
             area: 0.0,
             softening: None,
         };
-        let mut next = Vec::with_capacity(rows.count);
-        control.set_up(&body.state, stride, |row| next.push(row.clone()))?;
-        body.next = next;
         let at = |row: usize, place: usize| {
             (1..=rows.particles).contains(&place) && is_there(row, place - 1)
         };
@@ -286,8 +283,8 @@ impl Body {
             let inverse = |mass: f64| if mass > 0.0 { 1.0 / mass } else { 0.0 };
             self.rows[row].inverse_mass_around = around.into_iter().map(inverse).collect();
         }
-        let (stride, rows) = (self.stride, self.state.iter_mut().chain(&mut self.next));
-        control.set_up(rows, stride, |state| {
+        let stride = self.stride;
+        control.set_up(&mut self.state, stride, |state| {
             state.damage = Damage::new(stride, by_stress);
             if by_stress {
                 state.virial = [0, 1, 2].map(|_| vec![0.0; stride]);

@@ -65,7 +65,7 @@ pub(super) trait Bonded<const D: usize>: Debug + Clone + Sync {
     ///
     /// # Errors
     /// [`Error::Cancelled`].
-    fn frequency(&self, control: &mut Control<'_>) -> Result<f64, Error>;
+    fn frequency(&mut self, control: &mut Control<'_>) -> Result<f64, Error>;
     /// How bonds fail, if they do.
     fn softening(&self) -> Option<&Softening>;
     /// Contact of its pieces.

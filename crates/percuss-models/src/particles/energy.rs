@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::{
     body::Body,
     bonded::Load,
-    row::Damage,
+    row::{Damage, States},
     step::{LEAST_ROWS, Sweep},
 };
 
@@ -38,8 +38,9 @@ impl Body {
     /// linear springs exactly.
     fn row_sums(&self, row: usize, step: f64, loads: &[Load<2>]) -> BodySums {
         let springs = self.springs();
-        let mut sweep = Sweep::new(self, &springs, row);
-        sweep.next(self, &springs, row, loads);
+        let states = States::whole(&self.state);
+        let mut sweep = Sweep::new(self, &springs, &states, row);
+        sweep.next(self, &springs, &states, row, loads);
         let mut total = sweep.total;
         if let Some(places) = self.held_places(row) {
             total.z[places].fill(0.0);
@@ -74,11 +75,11 @@ impl Body {
     }
 
     /// Energy that softening takes from the bonds of a row in the step that ends with a damage [J per m].
-    pub(super) fn loss(&self, row: usize, damage: &Damage) -> f64 {
-        let Some(softening) = &self.softening else {
+    pub(super) fn loss(&self, states: &States<'_>, row: usize, damage: &Damage) -> f64 {
+        let (Some(softening), Some(state)) = (&self.softening, states.get(row)) else {
             return 0.0;
         };
-        let before = &self.state[row].damage;
+        let before = &state.damage;
         let mut lost = 0.0;
         for kind in 0..3 {
             let (old, new) = (&before.worst[kind], &damage.worst[kind]);

@@ -40,16 +40,9 @@ pub(super) fn largest_tension([xx, zz, xz]: [f64; 3]) -> f64 {
     0.5 * (xx + zz) + (half * half + xz * xz).sqrt()
 }
 
-/// All particles of a body.
-pub(super) fn whole<const D: usize>(body: &impl Bonded<D>) -> Vec<Particle> {
-    body.particles()
-        .map(|(row, place)| body.particle(row, place))
-        .collect()
-}
-
 /// All bonds of a body, whose particles are counted from a number on.
 pub(super) fn bonds<const D: usize>(body: &impl Bonded<D>, first: usize) -> Vec<Bond> {
-    let mut numbers = vec![0; body.row_count() * body.row_places()];
+    let mut numbers = vec![0_u32; body.row_count() * body.row_places()];
     for (number, at) in body.particles().enumerate() {
         numbers[body.index(at)] = (first + number) as u32;
     }
@@ -63,7 +56,10 @@ pub(super) fn bonds<const D: usize>(body: &impl Bonded<D>, first: usize) -> Vec<
             damage: damage as f32,
         }
     };
-    body.bonds().map(of).collect()
+    // A vector that grows would take up to twice as much.
+    let mut bonds = Vec::with_capacity(body.bonds().count());
+    bonds.extend(body.bonds().map(of));
+    bonds
 }
 
 /// State of the particle nearest to the axis in every row.

@@ -195,10 +195,4 @@ impl Flight {
             w + self.spin * (x - self.point[0]),
         ]
     }
-
-    /// Speed of the centre of mass, negative where it moves away from the target [m/s].
-    pub(super) fn signed_speed(&self) -> f64 {
-        let [u, w] = self.velocity;
-        u.hypot(w).copysign(w)
-    }
 }

@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, fmt::Write as _};
 
-use super::{body::Body, bonded::Bonded, run::Impact, setup, shape::Rigid};
+use super::{ball, body::Body, bonded::Bonded, run::Impact, setup, shape::Rigid};
 use crate::{
     Error, Refusal, Scenario,
     options::Space,
@@ -53,6 +53,10 @@ struct DataBond {
 
 /// Why a case that the model takes has no input for LAMMPS, if it has none.
 fn not_exported(scenario: &Scenario) -> Option<Refusal> {
+    if ball::is_meant(scenario) {
+        let reason = "the input for LAMMPS is that of a lattice, and `particles.contact = \"hertz\"` has none";
+        return Some(Refusal::new(reason).with_remedy("remove `particles.contact`"));
+    }
     if setup::toughness(scenario).is_some() {
         let reason = "LAMMPS has no bonds that soften: its bonds break at once, under pressure, too, and the answer would be another one";
         let remedy = "give `particles.fracture = false` for a body that does not break, and remove `particles.notches`";

@@ -1,5 +1,6 @@
 //! Model `particles`: solids as lattices of bonded particles, in a plane or in space.
 
+mod ball;
 mod body;
 mod bonded;
 mod bonds;
@@ -31,14 +32,16 @@ mod tests;
 
 pub use lammps::{LammpsInput, lammps};
 
-pub use crate::options::{FailureCriterion, PackingKind, ParticlesOptions, Space};
+pub use crate::options::{
+    FailureCriterion, Outline, PackingKind, ParticleContact, ParticlesOptions, Space,
+};
 
-use self::{body::Body, cubic::CubicBody, run::ParticlesRun};
+use self::{ball::Collision, body::Body, cubic::CubicBody, run::ParticlesRun};
 use crate::{
     Error, Refusal, Scenario,
     outcome::{BandQuantity, RunResult},
     regime::{ProjectileRegime, TargetKind},
-    solver::{Control, CostClass, Estimate, Model, estimate::WorkRate},
+    solver::{Control, CostClass, Estimate, Model, driver::Drive, estimate::WorkRate},
     units::Length,
     validity::{NoseKind, ValidityDomain},
 };
@@ -48,28 +51,34 @@ const WORK_IN_SPACE: WorkRate = WorkRate {
     bytes: 900.0,
     rate: 5e6,
 };
-/// Memory of a particle with the fields that show it [bytes], twice as much where particles are moved, and particles times steps per second of processor time.
+/// Memory of a particle with the files that show it [bytes], and particles times steps per second of processor time.
 const WORK: WorkRate = WorkRate {
-    bytes: 560.0,
+    bytes: 300.0,
     rate: 20e6,
 };
+/// Memory of a particle of an irregular packing over that of the lattice: of a plane body, and of one in space.
+const IRREGULAR: [f64; 2] = [1.6, 2.0];
+
 /// Lattice of bonded particles.
 #[derive(Debug, Clone, Copy)]
 pub struct Particles;
 
 /// Number of particles of a case.
 pub fn particles(scenario: &Scenario) -> f64 {
-    setup::extent(scenario).particles()
+    match ball::is_meant(scenario) {
+        true => ball::count(scenario),
+        false => setup::extent(scenario).particles(),
+    }
 }
 
 /// Whether bonds of a case break.
 pub fn breaks(scenario: &Scenario) -> bool {
-    setup::toughness(scenario).is_some()
+    !ball::is_meant(scenario) && setup::toughness(scenario).is_some()
 }
 
 /// Whether the packing of a case has random numbers.
 pub fn has_seeds(scenario: &Scenario) -> bool {
-    setup::packing(scenario) != packing::Packing::Regular
+    !ball::is_meant(scenario) && setup::packing(scenario) != packing::Packing::Regular
 }
 
 /// The same case with the packing of another seed: another specimen of the same solid.
@@ -93,6 +102,7 @@ impl Model for Particles {
             &ValidityDomain {
                 projectile: &[ProjectileRegime::Rigid],
                 targets: &[
+                    TargetKind::SemiInfinite,
                     TargetKind::ThickPlate,
                     TargetKind::Plate,
                     TargetKind::ThinPlate,
@@ -104,6 +114,8 @@ impl Model for Particles {
                     "`space`: plane strain or plane stress, where the projectile is a strip and results are per metre of width, or three dimensions",
                     "a rigid projectile on one elastic plate, or an elastic strip or rod on a rigid wall; bonds break where the material has \
                      `fracture`, and pieces meet with friction; no plastic flow, and no friction of the projectile",
+                    "`contact = \"hertz\"`: projectile and target ball are one elastic particle each, on a rigid wall, a half-space or another \
+                     ball, with friction and rotation; semi-infinite targets in this way alone",
                     "Poisson's ratio of the lattice up to 1/4 in plane strain, 1/3 in plane stress and 0.4 in three dimensions",
                     "never a first choice: for what is axisymmetric use `axi`",
                 ],
@@ -125,30 +137,44 @@ impl Model for Particles {
     }
 
     fn estimate(&self, scenario: &Scenario) -> Estimate {
+        if ball::is_meant(scenario) {
+            return ball::estimate(scenario);
+        }
         let (time_step, end, limits) = setup::expected(scenario);
-        let work = match scenario.options.particles.space() {
-            Space::ThreeDimensional => WORK_IN_SPACE,
-            Space::PlaneStrain | Space::PlaneStress => WORK,
+        let (work, irregular) = match scenario.options.particles.space() {
+            Space::ThreeDimensional => (WORK_IN_SPACE, IRREGULAR[1]),
+            Space::PlaneStrain | Space::PlaneStress => (WORK, IRREGULAR[0]),
         };
         let mut work = work.of(particles(scenario));
         if has_seeds(scenario) {
-            work.bytes *= 2.0;
+            work.bytes *= irregular;
         }
         Estimate::of_time(work, (end, time_step), limits)
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
-        setup::not_applicable(scenario)
+        match ball::is_meant(scenario) {
+            true => ball::not_applicable(scenario),
+            false => setup::not_applicable(scenario),
+        }
     }
 
     fn refined(&self, scenario: &Scenario, factor: u32) -> Option<Scenario> {
         let mut refined = scenario.clone();
+        if ball::is_meant(scenario) {
+            let courant = scenario.options.particles.courant() / f64::from(factor);
+            refined.options.particles.courant = Some(courant);
+            return Some(refined);
+        }
         let spacing = setup::extent(scenario).spacing() / f64::from(factor);
         refined.options.particles.spacing = Some(Length::new(spacing));
         Some(refined)
     }
 
     fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
+        if ball::is_meant(scenario) {
+            return Drive::<Collision<'_>>::new(scenario, control)?.run(control);
+        }
         match scenario.options.particles.space() {
             Space::ThreeDimensional => {
                 ParticlesRun::<CubicBody, 3>::new(scenario, control)?.run(control)

@@ -57,7 +57,7 @@ impl Bonded<2> for Body {
         1.5 * self.lattice.normal + 0.5 * self.lattice.shear
     }
 
-    fn frequency(&self, control: &mut Control<'_>) -> Result<f64, Error> {
+    fn frequency(&mut self, control: &mut Control<'_>) -> Result<f64, Error> {
         match self.rows[0].is_moved() {
             true => self.measured_frequency(control),
             false => Ok(self.lattice.largest_frequency()),

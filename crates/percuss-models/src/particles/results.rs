@@ -26,7 +26,7 @@ fn mean_velocity<B: Bonded<D>, const D: usize>(run: &Impact<'_, B, D>) -> f64 {
 fn residual_velocity<B: Bonded<D>, const D: usize>(run: &Impact<'_, B, D>) -> f64 {
     match run.rigid {
         Rigid::Wall => mean_velocity(run),
-        Rigid::Projectile(_) => run.state.flight.signed_speed(),
+        Rigid::Projectile(_) => signed_speed(run.state.flight.velocity),
     }
 }
 
@@ -34,8 +34,20 @@ pub(super) fn outcome<B: Bonded<D>, const D: usize>(
     run: &Impact<'_, B, D>,
     termination: Termination,
 ) -> Outcome {
-    let velocity = residual_velocity(run);
-    let least = REST_FRACTION * run.scenario.impact_velocity;
+    outcome_at(
+        (residual_velocity(run), run.scenario.impact_velocity),
+        termination,
+    )
+}
+
+/// Speed, negative where it is away from the target [m/s].
+pub(super) fn signed_speed([across, along]: [f64; 2]) -> f64 {
+    across.hypot(along).copysign(along)
+}
+
+/// Outcome at a residual velocity, of an impact at another [m/s].
+pub(super) fn outcome_at((velocity, impact): (f64, f64), termination: Termination) -> Outcome {
+    let least = REST_FRACTION * impact;
     match termination {
         Termination::NothingMoves => Outcome::AtRest,
         Termination::EndTime | Termination::StepLimit => Outcome::OutOfTime,

@@ -23,6 +23,79 @@ pub(super) struct RowState {
     pub(super) lost: f64,
 }
 
+impl RowState {
+    /// Displacements, and cosines and sines of the rotations.
+    pub(super) fn place(&self) -> [Vec<f64>; 4] {
+        [&self.x, &self.z, &self.cosine, &self.sine].map(Vec::clone)
+    }
+
+    /// Takes over what forces on other rows follow from.
+    pub(super) fn copy_for_forces(&mut self, other: &Self) {
+        self.x.clone_from(&other.x);
+        self.z.clone_from(&other.z);
+        self.cosine.clone_from(&other.cosine);
+        self.sine.clone_from(&other.sine);
+        for kind in 0..3 {
+            self.damage.worst[kind].clone_from(&other.damage.worst[kind]);
+            self.damage.start[kind].clone_from(&other.damage.start[kind]);
+            self.virial[kind].clone_from(&other.virial[kind]);
+        }
+    }
+}
+
+/// Rows before and behind those that a task changes, as they are before the step.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Halo {
+    pub(super) before: Vec<RowState>,
+    pub(super) behind: Vec<RowState>,
+}
+
+/// States of rows before a step: those of a task that it has not changed yet, and copies around them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct States<'a> {
+    /// Number of the first own row.
+    first: usize,
+    own: &'a [RowState],
+    before: &'a [RowState],
+    behind: &'a [RowState],
+}
+
+impl<'a> States<'a> {
+    /// Those of a whole body.
+    pub(super) fn whole(own: &'a [RowState]) -> Self {
+        Self {
+            first: 0,
+            own,
+            before: &[],
+            behind: &[],
+        }
+    }
+
+    /// Those of a task that starts at a row.
+    pub(super) fn around(first: usize, own: &'a [RowState], halo: &'a Halo) -> Self {
+        Self {
+            first,
+            own,
+            before: &halo.before,
+            behind: &halo.behind,
+        }
+    }
+
+    /// A row, if there is one.
+    #[inline(always)]
+    pub(super) fn get(&self, row: usize) -> Option<&'a RowState> {
+        match row.checked_sub(self.first) {
+            None => self
+                .before
+                .get((self.before.len() + row).checked_sub(self.first)?),
+            Some(index) => match index.checked_sub(self.own.len()) {
+                None => self.own.get(index),
+                Some(index) => self.behind.get(index),
+            },
+        }
+    }
+}
+
 /// Damage of the three kinds of bonds that start in a row.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Damage {

@@ -22,7 +22,7 @@ use crate::{
         Control, Particle,
         archive::Archive,
         driver::Drive,
-        frames::{Across, Fields},
+        frames::{Across, Fields, PointSource, Points},
         gauge::Gauge,
         interface::{Audit, BalanceTolerance, Extremes, Retry, Solver},
         limits::Limits,
@@ -117,6 +117,18 @@ impl<B: Bonded<D>, const D: usize> Impact<'_, B, D> {
     }
 }
 
+impl<B: Bonded<D>, const D: usize> PointSource for Impact<'_, B, D> {
+    fn len(&self) -> usize {
+        self.body.particles().count()
+    }
+
+    /// Particles of the lattice.
+    fn points(&self) -> Box<dyn Iterator<Item = Particle> + '_> {
+        let body = &self.body;
+        Box::new((body.particles()).map(|(row, place)| body.particle(row, place)))
+    }
+}
+
 impl<'a, B: Bonded<D>, const D: usize> Solver<'a> for Impact<'a, B, D> {
     const NAMES: (&'static str, &'static str) = ("particles", B::LATTICE);
     const AUDIT: Audit = Audit {
@@ -134,7 +146,7 @@ impl<'a, B: Bonded<D>, const D: usize> Solver<'a> for Impact<'a, B, D> {
         courant: f64,
         control: &mut Control<'_>,
     ) -> Result<Self, Error> {
-        let (body, rigid) = B::build(scenario, control)?;
+        let (mut body, rigid) = B::build(scenario, control)?;
         let speed = scenario.impact_velocity;
         let angle = scenario.obliquity;
         let inertia = body.inertia(scenario, rigid);
@@ -342,15 +354,15 @@ impl<'a, B: Bonded<D>, const D: usize> Solver<'a> for Impact<'a, B, D> {
     }
 
     fn fields(&self) -> Fields<'_> {
-        let mut bodies: Vec<Cow<'_, [Particle]>> = Vec::new();
+        let mut bodies: Vec<Points<'_>> = Vec::new();
         let mut across = Vec::new();
         if self.rigid != Rigid::Wall {
             let (points, beside) = self.body.show_rigid(self);
-            bodies.push(Cow::Owned(points));
+            bodies.push(Points::Kept(Cow::Owned(points)));
             across = beside;
         }
-        let before = bodies.iter().map(|body| body.len()).sum();
-        bodies.push(Cow::Owned(fields::whole(&self.body)));
+        let before = bodies.iter().map(Points::len).sum();
+        bodies.push(Points::Made(self));
         let of_body =
             (self.body.particles()).filter_map(|(row, place)| self.body.across(row, place));
         across.extend(of_body);

@@ -75,6 +75,11 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
         );
         return Some(Refusal::new(reason).with_remedy("use the model `axi` or `chain`"));
     }
+    if layer(scenario).is_some() && scenario.target_thickness().is_none() {
+        let reason = "a semi-infinite target is computed under a ball with `particles.contact = \"hertz\"` alone";
+        let remedy = "give the target a thickness";
+        return Some(Refusal::new(reason).with_remedy(remedy));
+    }
     if scenario.rear_face() == Some(RearFaceCondition::NonReflecting) {
         let reason = "it has no non-reflecting rear face";
         let remedy = "give `target.back_face` as \"free\" or \"fixed\", and a thickness from which no wave returns in time";
@@ -116,7 +121,7 @@ pub(super) fn extent(scenario: &Scenario) -> Extent {
     match scenario.target_thickness() {
         Some(thickness) => {
             let default = match options.outline() {
-                Outline::Disc => thickness,
+                Outline::Disc | Outline::Ball => thickness,
                 Outline::Plate => {
                     (WIDTH_IN_DIAMETERS * rod.diameter).max(WIDTH_IN_THICKNESSES * thickness)
                 }
@@ -373,7 +378,7 @@ pub(super) fn build(
         // A disc stands on a support as wide as the projectile.
         body.hold_rear(match scenario.options.particles.outline() {
             Outline::Plate => f64::INFINITY,
-            Outline::Disc => 0.5 * scenario.projectile.diameter,
+            Outline::Disc | Outline::Ball => 0.5 * scenario.projectile.diameter,
         });
     }
     Ok((body, Rigid::Projectile(shape(scenario))))

@@ -9,7 +9,7 @@ use super::{
     bonded::{Bonded, Load},
     bonds::{BondDamage, BondForce, Forces, Pair, Pose, Rest, RowForces, Springs, bond, offset},
     lattice::DIRECTIONS,
-    row::{RowMake, RowMotion, RowState},
+    row::{Halo, RowMake, RowMotion, RowState, States},
 };
 use crate::{Error, random::unit, solver::Control};
 
@@ -62,8 +62,10 @@ struct Slice<'a> {
     loads: &'a [Load<2>],
     /// Time step [s].
     step: f64,
+    /// They are changed one after the other: what is behind is still that of before the step.
     state: &'a mut [RowState],
     motion: &'a mut [RowMotion],
+    halo: &'a Halo,
 }
 
 impl pulp::NullaryFnOnce for Slice<'_> {
@@ -79,31 +81,28 @@ impl pulp::NullaryFnOnce for Slice<'_> {
             step,
             state,
             motion,
+            halo,
         } = self;
         let springs = body.springs();
         let mut support = 0.0;
-        let mut forces = Sweep::new(body, &springs, first);
-        for (index, (state, motion)) in state.iter_mut().zip(motion).enumerate() {
+        let states = States::around(first, state, halo);
+        let mut forces = Sweep::new(body, &springs, &states, first);
+        for (index, motion) in motion.iter_mut().enumerate() {
             let row = first + index;
-            forces.next(body, &springs, row, loads);
+            let states = States::around(first, state, halo);
+            forces.next(body, &springs, &states, row, loads);
+            let state = &mut state[index];
             let total = &mut forces.total;
             if let Some(places) = body.held_places(row) {
                 let held = &mut total.z[places];
                 support += step * held.iter().sum::<f64>();
                 held.fill(0.0);
             }
-            advance(
-                &body.rows[row],
-                total,
-                step,
-                &body.state[row],
-                state,
-                motion,
-            );
+            advance(&body.rows[row], total, step, state, motion);
             if body.softening.is_some() {
                 // What was the row's own is what is above the next one.
                 std::mem::swap(&mut state.damage, &mut forces.above.damage);
-                state.lost = body.state[row].lost + forces.lost;
+                state.lost += forces.lost;
                 std::mem::swap(&mut state.virial, &mut forces.total.virial);
             }
         }
@@ -126,7 +125,7 @@ pub(super) struct Sweep {
 
 impl Sweep {
     #[inline(always)]
-    pub(super) fn new(body: &Body, springs: &Springs, first: usize) -> Self {
+    pub(super) fn new(body: &Body, springs: &Springs, states: &States<'_>, first: usize) -> Self {
         let by_stress = body.softening.is_some_and(|law| law.by_stress);
         let places = if by_stress { body.stride } else { 0 };
         let zeros = || vec![0.0; places];
@@ -134,12 +133,12 @@ impl Sweep {
         let (mut tension, mut virial) = ([zeros(), zeros()], [zeros(), zeros(), zeros()]);
         if first > 0 {
             if by_stress {
-                body.tension(first - 1, &mut virial, &mut tension[0]);
-                body.tension(first, &mut virial, &mut tension[1]);
+                body.tension(states, first - 1, &mut virial, &mut tension[0]);
+                body.tension(states, first, &mut virial, &mut tension[1]);
             }
-            body.row_forces(springs, first - 1, &tension, &mut above);
+            body.row_forces(springs, states, first - 1, &tension, &mut above);
         } else if by_stress {
-            body.tension(0, &mut virial, &mut tension[1]);
+            body.tension(states, 0, &mut virial, &mut tension[1]);
         }
         Self {
             tension,
@@ -152,12 +151,19 @@ impl Sweep {
     }
 
     #[inline(always)]
-    pub(super) fn next(&mut self, body: &Body, springs: &Springs, row: usize, loads: &[Load<2>]) {
+    pub(super) fn next(
+        &mut self,
+        body: &Body,
+        springs: &Springs,
+        states: &States<'_>,
+        row: usize,
+        loads: &[Load<2>],
+    ) {
         self.tension.swap(0, 1);
         if !self.tension[1].is_empty() {
-            body.tension(row + 1, &mut self.virial, &mut self.tension[1]);
+            body.tension(states, row + 1, &mut self.virial, &mut self.tension[1]);
         }
-        body.row_forces(springs, row, &self.tension, &mut self.own);
+        body.row_forces(springs, states, row, &self.tension, &mut self.own);
         self.total.sum(row % 2, &self.own, &self.above);
         let start = loads.partition_point(|load| load.row < row);
         for load in loads[start..].iter().take_while(|load| load.row == row) {
@@ -165,7 +171,7 @@ impl Sweep {
             self.total.z[load.place] += load.force[1];
             self.total.moment[load.place] += load.moment;
         }
-        self.lost = body.loss(row, &self.own.damage);
+        self.lost = body.loss(states, row, &self.own.damage);
         std::mem::swap(&mut self.above, &mut self.own);
     }
 }
@@ -191,13 +197,16 @@ impl Body {
     fn row_forces(
         &self,
         springs: &Springs,
+        states: &States<'_>,
         row: usize,
         tension: &[Vec<f64>; 2],
         forces: &mut RowForces,
     ) {
-        let own = &self.state[row];
+        let Some(own) = states.get(row) else {
+            return;
+        };
         // The last row has no bonds to a next one: their weights are 0.
-        let next = self.state.get(row + 1).unwrap_or(own);
+        let next = states.get(row + 1).unwrap_or(own);
         let pair = Pair {
             springs,
             softening: self.softening.as_ref(),
@@ -213,15 +222,17 @@ impl Body {
     /// Advances all particles by a step [s] under the loads of contacts, which are in the order of the rows; returns the impulse on the
     /// support [N s per m]. Every particle sums its own forces in the same order, so threads change no bit.
     pub(super) fn advance_rows(&mut self, step: f64, loads: &[Load<2>]) -> f64 {
-        let mut motion = std::mem::take(&mut self.motion);
-        let mut next = std::mem::take(&mut self.next);
         let at_once = self.rows_at_once();
+        self.copy_halos(at_once);
+        let mut motion = std::mem::take(&mut self.motion);
+        let mut states = std::mem::take(&mut self.state);
         let body = &*self;
-        let support: f64 = next
+        let support: f64 = states
             .par_chunks_mut(at_once)
             .zip(motion.par_chunks_mut(at_once))
+            .zip(&body.halos)
             .enumerate()
-            .map(|(slice, (state, motion))| {
+            .map(|(slice, ((state, motion), halo))| {
                 pulp::Arch::new().dispatch(Slice {
                     body,
                     first: slice * at_once,
@@ -229,13 +240,35 @@ impl Body {
                     step,
                     state,
                     motion,
+                    halo,
                 })
             })
             // The support stands behind the last slice: all others add nothing.
             .sum();
         self.motion = motion;
-        self.next = std::mem::replace(&mut self.state, next);
+        self.state = states;
         support
+    }
+
+    /// Copies the rows around those of each task: another one changes them meanwhile.
+    fn copy_halos(&mut self, at_once: usize) {
+        let by_stress = self.softening.is_some_and(|law| law.by_stress);
+        let depth = if by_stress { 2 } else { 1 };
+        let rows = &self.state;
+        self.halos
+            .resize_with(rows.len().div_ceil(at_once.max(1)), Halo::default);
+        let copy = |copies: &mut Vec<RowState>, from: &[RowState]| {
+            copies.resize_with(from.len(), RowState::default);
+            for (copy, row) in copies.iter_mut().zip(from) {
+                copy.copy_for_forces(row);
+            }
+        };
+        for (slice, halo) in self.halos.iter_mut().enumerate() {
+            let first = slice * at_once;
+            let end = (first + at_once).min(rows.len());
+            copy(&mut halo.before, &rows[first.saturating_sub(depth)..first]);
+            copy(&mut halo.behind, &rows[end..(end + depth).min(rows.len())]);
+        }
     }
 
     fn rows_at_once(&self) -> usize {
@@ -253,14 +286,26 @@ impl Body {
     ///
     /// # Errors
     /// [`Error::Cancelled`].
-    pub(super) fn measured_frequency(&self, control: &mut Control<'_>) -> Result<f64, Error> {
-        let mut body = self.clone();
+    pub(super) fn measured_frequency(&mut self, control: &mut Control<'_>) -> Result<f64, Error> {
         control.ask()?;
-        body.softening = None;
+        // In place, and back again: a copy of the body would take as much memory as a run.
+        let places = self.state.iter().map(RowState::place).collect::<Vec<_>>();
+        let motion = self.motion.clone();
+        let softening = self.softening.take();
+        let found = self.frequency_of_random_motion(control);
+        self.softening = softening;
+        self.motion = motion;
+        for (state, [x, z, cosine, sine]) in self.state.iter_mut().zip(places) {
+            (state.x, state.z, state.cosine, state.sine) = (x, z, cosine, sine);
+        }
+        found
+    }
+
+    fn frequency_of_random_motion(&mut self, control: &mut Control<'_>) -> Result<f64, Error> {
         let size = 1e-9 * self.lattice.spacing;
-        for row in 0..body.rows.len() {
-            let make = &body.rows[row];
-            let motion = &mut body.motion[row];
+        for row in 0..self.rows.len() {
+            let make = &self.rows[row];
+            let motion = &mut self.motion[row];
             for place in (0..self.stride).filter(|&place| make.mass[place] > 0.0) {
                 let index = 3 * (row * self.stride + place) as u64;
                 let draw = |part| unit(FREQUENCY_STREAM, index + part) - 0.5;
@@ -272,10 +317,10 @@ impl Body {
         let mut square = 0.0;
         for _ in 0..FREQUENCY_ROUNDS {
             control.ask()?;
-            let before = body.motion_norm();
-            body.displace_by_motion(size / before);
-            body.advance_rows(1.0, &[]);
-            square = body.motion_norm() / size;
+            let before = self.motion_norm();
+            self.displace_by_motion(size / before);
+            self.advance_rows(1.0, &[]);
+            square = self.motion_norm() / size;
         }
         Ok(FREQUENCY_MARGIN * square.sqrt())
     }
@@ -355,34 +400,33 @@ fn advance(
     make: &RowMake,
     total: &Forces,
     step: f64,
-    before: &RowState,
-    after: &mut RowState,
+    state: &mut RowState,
     motion: &mut RowMotion,
 ) {
     let count = make.mass.len();
     let (inverse_mass, inverse_inertia) =
         (&make.inverse_mass[..count], &make.inverse_inertia[..count]);
-    for (force, speed, old, new) in [
-        (&total.x, &mut motion.x, &before.x, &mut after.x),
-        (&total.z, &mut motion.z, &before.z, &mut after.z),
+    for (force, speed, place) in [
+        (&total.x, &mut motion.x, &mut state.x),
+        (&total.z, &mut motion.z, &mut state.z),
     ] {
         let (force, speed) = (&force[..count], &mut speed[..count]);
-        let (old, new) = (&old[..count], &mut new[..count]);
+        let place = &mut place[..count];
         for i in 0..count {
             speed[i] += step * force[i] * inverse_mass[i];
-            new[i] = old[i] + step * speed[i];
+            place[i] += step * speed[i];
         }
     }
     let (moment, spin) = (&total.moment[..count], &mut motion.spin[..count]);
-    let (cosine, sine) = (&before.cosine[..count], &before.sine[..count]);
-    let (new_cosine, new_sine) = (&mut after.cosine[..count], &mut after.sine[..count]);
+    let (cosine, sine) = (&mut state.cosine[..count], &mut state.sine[..count]);
     for i in 0..count {
         spin[i] += step * moment[i] * inverse_inertia[i];
         // Cayley's form of a rotation keeps cosine and sine on the unit circle without a root.
         let half = 0.5 * step * spin[i];
         let scale = 1.0 / (1.0 + half * half);
         let (c, s) = ((1.0 - half * half) * scale, 2.0 * half * scale);
-        new_cosine[i] = c * cosine[i] - s * sine[i];
-        new_sine[i] = s * cosine[i] + c * sine[i];
+        let (old_cosine, old_sine) = (cosine[i], sine[i]);
+        cosine[i] = c * old_cosine - s * old_sine;
+        sine[i] = s * old_cosine + c * old_sine;
     }
 }

@@ -3,6 +3,7 @@
 use super::{
     body::Body,
     lattice::{Lattice, ROW},
+    row::States,
 };
 
 impl Body {
@@ -36,14 +37,24 @@ impl Body {
 
     /// Larger principal stress around the particles of a row, in that at which bonds start to soften.
     #[inline(always)]
-    pub(super) fn tension(&self, row: usize, virial: &mut [Vec<f64>; 3], tension: &mut [f64]) {
+    pub(super) fn tension(
+        &self,
+        states: &States<'_>,
+        row: usize,
+        virial: &mut [Vec<f64>; 3],
+        tension: &mut [f64],
+    ) {
         let Some(softening) = self.softening.as_ref().filter(|_| row < self.rows.len()) else {
             tension.fill(0.0);
             return;
         };
         for (k, sums) in virial.iter_mut().enumerate() {
             sums.fill(0.0);
-            self.add_neighbours(row, |row| &self.state[row].virial[k], sums);
+            let of = |row: usize| {
+                let state = states.get(row);
+                state.map_or(&[][..], |state| state.virial[k].as_slice())
+            };
+            self.add_neighbours(row, of, sums);
         }
         let Lattice { mass, spacing, .. } = self.lattice;
         // Half of each bond belongs to a particle, whose area is in proportion to its mass.

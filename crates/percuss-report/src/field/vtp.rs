@@ -9,7 +9,7 @@ use std::{fmt::Write as _, io::Write};
 use flate2::{Compression, write::ZlibEncoder};
 use percuss::{
     axi::Particle,
-    frames::{Across, Bond, Fields, Frame},
+    frames::{Across, Bond, Fields, Frame, Points},
     history::ElementState,
 };
 use rayon::prelude::*;
@@ -56,22 +56,33 @@ const ELEMENT_COLUMNS: [ElementColumn; 4] = [
     ("temperature", |e| e.temperature),
 ];
 
-/// An array of a file: name, type, components and bytes.
+/// An array of a file: name, type, components and bytes, or its block.
 type Array = (&'static str, &'static str, usize, Vec<u8>);
+
+/// Adds the bytes of numbers, rounded or exact.
+fn add_floats(bytes: &mut Vec<u8>, values: &[f64], exact: bool) {
+    for value in values {
+        let value = *value as f32;
+        let value = if exact { value } else { rounded(value) };
+        bytes.extend(value.to_le_bytes());
+    }
+}
 
 /// Bytes of numbers, rounded or exact.
 fn floats(values: impl Iterator<Item = f64>, exact: bool) -> Vec<u8> {
-    let rounded = move |value: f64| {
-        let value = value as f32;
-        if exact { value } else { rounded(value) }
-    };
-    values
-        .flat_map(|value| rounded(value).to_le_bytes())
-        .collect()
+    let mut bytes = Vec::with_capacity(4 * values.size_hint().0);
+    for value in values {
+        add_floats(&mut bytes, &[value], exact);
+    }
+    bytes
 }
 
 fn integers(values: impl Iterator<Item = i32>) -> Vec<u8> {
-    values.flat_map(i32::to_le_bytes).collect()
+    let mut bytes = Vec::with_capacity(4 * values.size_hint().0);
+    for value in values {
+        bytes.extend(value.to_le_bytes());
+    }
+    bytes
 }
 
 /// The file of a frame.
@@ -82,8 +93,49 @@ pub(crate) fn encode(frame: &Frame<'_>) -> Vec<u8> {
     }
 }
 
+/// Arrays at particles, filled in one pass: no frame holds all particles.
+struct Arrays {
+    bodies: Vec<u8>,
+    velocities: Vec<u8>,
+    columns: [Vec<u8>; COLUMNS.len()],
+    places: Vec<u8>,
+}
+
+impl Arrays {
+    fn of(fields: &Fields<'_>, across: Option<&Across>) -> Self {
+        // Vectors that grow would take up to twice as much.
+        let count = match fields {
+            Fields::Particles { bodies, .. } => bodies.iter().map(Points::len).sum(),
+            _ => 0,
+        };
+        let empty = |components: usize| Vec::with_capacity(4 * components * count);
+        let mut arrays = Self {
+            bodies: Vec::with_capacity(count),
+            velocities: empty(3),
+            columns: COLUMNS.map(|(_, components, _)| empty(components)),
+            places: empty(3),
+        };
+        for (number, (body, particle)) in fields.particles().enumerate() {
+            // Vectors of particles in space have a third component.
+            let vector = |[x, z]: [f64; 2], part: usize| {
+                [
+                    x,
+                    -z,
+                    across.map_or(0.0, |across| across.places[number][part]),
+                ]
+            };
+            arrays.bodies.push(body as u8);
+            add_floats(&mut arrays.velocities, &vector(particle.velocity, 1), false);
+            add_floats(&mut arrays.places, &vector(particle.position, 0), true);
+            for ((name, components, value), bytes) in COLUMNS.iter().zip(&mut arrays.columns) {
+                add_floats(bytes, &value(&particle)[..*components], *name == "volume");
+            }
+        }
+        arrays
+    }
+}
+
 fn encode_particles(frame: &Frame<'_>, fields: &Fields<'_>) -> Vec<u8> {
-    let particles: Vec<(usize, &Particle)> = fields.particles().collect();
     let (cell, bonds, across): (f64, &[Bond], Option<&Across>) = match fields {
         Fields::Particles {
             cell,
@@ -93,50 +145,34 @@ fn encode_particles(frame: &Frame<'_>, fields: &Fields<'_>) -> Vec<u8> {
         } => (*cell, bonds, across.as_ref()),
         _ => (0.0, &[], None),
     };
-    let of = |exact: bool, components: usize, value: &dyn Fn(&Particle) -> [f64; 3]| {
-        let entries = particles
-            .iter()
-            .flat_map(|(_, particle)| value(particle).into_iter().take(components));
-        floats(entries, exact)
-    };
-    // Vectors of particles in space have a third component.
-    let vectors = |exact: bool, part: usize, value: &dyn Fn(&Particle) -> [f64; 2]| {
-        let entries = particles.iter().enumerate().flat_map(|(number, (_, p))| {
-            let [x, z] = value(p);
-            let y = across.map_or(0.0, |across| across.places[number][part]);
-            [x, -z, y]
-        });
-        floats(entries, exact)
-    };
-    let bodies = particles.iter().map(|(body, _)| *body as u8).collect();
+    let arrays = Arrays::of(fields, across);
+    let count = arrays.bodies.len();
     let mut data: Vec<Array> = vec![
-        (BODY, "UInt8", 1, bodies),
-        ("velocity", "Float32", 3, vectors(false, 1, &|p| p.velocity)),
+        (BODY, "UInt8", 1, arrays.bodies),
+        ("velocity", "Float32", 3, arrays.velocities),
     ];
-    for (name, components, value) in COLUMNS {
-        data.push((
-            name,
-            "Float32",
-            components,
-            of(name == "volume", components, &value),
-        ));
+    for ((name, components, _), bytes) in COLUMNS.into_iter().zip(arrays.columns) {
+        data.push((name, "Float32", components, bytes));
     }
-    let count = particles.len();
+    data.push((POINTS, "Float32", 3, arrays.places));
+    // Packed before there are arrays of bonds.
+    let mut data = packed(data);
+    let points = data.pop();
     let constants = [
         ("TimeValue", frame.time),
         ("cell", cell),
         ("depth", frame.depth),
         (SECTION, across.map_or(0.0, |across| across.section)),
     ];
-    assemble(&File {
+    assemble(File {
         // Bodies in a plane have no section.
         constants: &constants[..if across.is_some() { 4 } else { 3 }],
-        points: (count, vectors(true, 0, &|p| p.position)),
+        points: (count, points),
         data: (
             "PointData Scalars=\"plastic_strain\" Vectors=\"velocity\"",
             data,
         ),
-        cells: bond_damage(bonds),
+        cells: packed(bond_damage(bonds)),
         shapes: std::iter::once(Shapes {
             tag: "Verts",
             count: 1,
@@ -149,11 +185,14 @@ fn encode_particles(frame: &Frame<'_>, fields: &Fields<'_>) -> Vec<u8> {
 }
 
 fn lines(bonds: &[Bond]) -> Shapes {
-    let ends = bonds.iter().flat_map(|bond| bond.ends);
+    let mut connectivity = Vec::with_capacity(8 * bonds.len());
+    for end in bonds.iter().flat_map(|bond| bond.ends) {
+        connectivity.extend((end as i32).to_le_bytes());
+    }
     Shapes {
         tag: "Lines",
         count: bonds.len(),
-        connectivity: integers(ends.map(|end| end as i32)),
+        connectivity,
         offsets: integers((1..=bonds.len() as i32).map(|line| 2 * line)),
     }
 }
@@ -192,10 +231,11 @@ fn encode_elements(frame: &Frame<'_>, elements: &[ElementState]) -> Vec<u8> {
             floats(elements.iter().map(value), false),
         ));
     }
-    assemble(&File {
+    let mut points = packed(vec![(POINTS, "Float32", 3, floats(places, true))]);
+    assemble(File {
         constants: &[("TimeValue", frame.time), ("depth", frame.depth)],
-        points: (4 * count, floats(places, true)),
-        data: ("CellData Scalars=\"plastic_strain\"", data),
+        points: (4 * count, points.pop()),
+        data: ("CellData Scalars=\"plastic_strain\"", packed(data)),
         cells: Vec::new(),
         shapes: vec![Shapes {
             tag: "Polys",
@@ -210,8 +250,8 @@ fn encode_elements(frame: &Frame<'_>, elements: &[ElementState]) -> Vec<u8> {
 struct File<'a> {
     constants: &'a [(&'a str, f64)],
     /// Their number and their coordinates.
-    points: (usize, Vec<u8>),
-    /// Start tag of the arrays at points or in cells, and the arrays.
+    points: (usize, Option<Array>),
+    /// Start tag of the arrays at points or in cells, and the arrays. All arrays are packed.
     data: (&'a str, Vec<Array>),
     /// Arrays in cells beside arrays at points.
     cells: Vec<Array>,
@@ -226,25 +266,32 @@ struct Shapes {
     offsets: Vec<u8>,
 }
 
-fn assemble(file: &File<'_>) -> Vec<u8> {
-    let (tag, data) = &file.data;
-    let mut arrays: Vec<(&str, &str, usize, &[u8])> = data
-        .iter()
-        .chain(&file.cells)
-        .map(|(name, kind, components, bytes)| (*name, *kind, *components, &**bytes))
+/// The same arrays as blocks; each goes as it is packed.
+fn packed(arrays: Vec<Array>) -> Vec<Array> {
+    arrays
+        .into_par_iter()
+        .map(|(name, kind, components, bytes)| (name, kind, components, block(&bytes)))
+        .collect()
+}
+
+/// The file of its arrays.
+fn assemble(file: File<'_>) -> Vec<u8> {
+    let (tag, data) = file.data;
+    let (in_data, in_cells) = (data.len(), file.cells.len());
+    let counts: Vec<(&str, usize)> = (file.shapes.iter())
+        .map(|shapes| (shapes.tag, shapes.count))
         .collect();
-    arrays.push((POINTS, "Float32", 3, &file.points.1));
-    for shapes in &file.shapes {
-        arrays.push(("connectivity", "Int32", 1, &shapes.connectivity));
-        arrays.push(("offsets", "Int32", 1, &shapes.offsets));
+    let mut blocks: Vec<Array> = data.into_iter().chain(file.cells).collect();
+    blocks.extend(file.points.1);
+    for shapes in file.shapes {
+        blocks.extend(packed(vec![
+            ("connectivity", "Int32", 1, shapes.connectivity),
+            ("offsets", "Int32", 1, shapes.offsets),
+        ]));
     }
-    let blocks: Vec<Vec<u8>> = arrays
-        .par_iter()
-        .map(|(_, _, _, bytes)| block(bytes))
-        .collect();
     let mut offset = 0;
     let mut tags = Vec::new();
-    for ((name, kind, components, _), block) in arrays.iter().zip(&blocks) {
+    for (name, kind, components, block) in &blocks {
         tags.push(format!(
             r#"<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="appended" offset="{offset}"/>"#
         ));
@@ -262,8 +309,8 @@ fn assemble(file: &File<'_>) -> Vec<u8> {
         );
     }
     let number = |kind: &str| {
-        let of_kind = file.shapes.iter().find(|shapes| shapes.tag == kind);
-        of_kind.map_or(0, |shapes| shapes.count)
+        let of_kind = counts.iter().find(|(tag, _)| *tag == kind);
+        of_kind.map_or(0, |(_, count)| *count)
     };
     let mut tags = tags.into_iter();
     let mut next = |count: usize| {
@@ -279,19 +326,21 @@ fn assemble(file: &File<'_>) -> Vec<u8> {
         number("Verts"),
         number("Lines"),
         number("Polys"),
-        next(data.len()),
+        next(in_data),
     );
-    if !file.cells.is_empty() {
-        let _ = writeln!(text, "<CellData>\n{}\n</CellData>", next(file.cells.len()));
+    if in_cells > 0 {
+        let _ = writeln!(text, "<CellData>\n{}\n</CellData>", next(in_cells));
     }
     let _ = writeln!(text, "<Points>\n{}\n</Points>", next(1));
-    for shapes in &file.shapes {
-        let _ = writeln!(text, "<{0}>\n{1}\n</{0}>", shapes.tag, next(2));
+    for (tag, _) in &counts {
+        let _ = writeln!(text, "<{tag}>\n{}\n</{tag}>", next(2));
     }
     text += "</Piece>\n</PolyData>\n";
     let mut bytes = text.into_bytes();
     bytes.extend(MARKER);
-    bytes.extend(blocks.concat());
+    for (.., block) in blocks {
+        bytes.extend(block);
+    }
     bytes.extend(b"\n</AppendedData>\n</VTKFile>\n");
     bytes
 }
@@ -353,7 +402,10 @@ mod tests {
             depth: 2e-3,
             fields: Fields::Particles {
                 cell: 1e-4,
-                bodies: bodies.iter().map(|body| body[..].into()).collect(),
+                bodies: bodies
+                    .iter()
+                    .map(|body| body.iter().copied().collect())
+                    .collect(),
                 bonds: vec![bond(0, 1, 0.5), bond(1, 2, 1.0)],
                 across: None,
             },

@@ -34,7 +34,7 @@ pub fn stress_excess(scenario: &Scenario) -> Result<Option<f64>, Error> {
         let own = frame.fields.particles().filter(|(body, _)| *body == 0);
         pictures.push(Picture {
             time: frame.time,
-            particles: own.map(|(_, particle)| *particle).collect(),
+            particles: own.map(|(_, particle)| particle).collect(),
         });
         ControlFlow::Continue(())
     };

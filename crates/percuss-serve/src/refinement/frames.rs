@@ -95,7 +95,7 @@ impl<'a> FrameEncoder<'a> {
         if first {
             *self = Self::new(self.scenario, self.cells);
         }
-        let particles: Vec<(usize, &Particle)> = frame.fields.section().collect();
+        let particles: Vec<(usize, Particle)> = frame.fields.section().collect();
         let selection = self
             .selection
             .get_or_insert_with(|| FrameSelection::new(most_frames(particles.len())));
@@ -133,7 +133,7 @@ impl<'a> FrameEncoder<'a> {
     fn follow(
         &mut self,
         frame: &Frame<'_>,
-        particles: &[(usize, &Particle)],
+        particles: &[(usize, Particle)],
         own: [(f32, f32); QUANTITIES.len()],
     ) {
         for (sofar, (low, high)) in self.values.iter_mut().zip(own) {
@@ -179,7 +179,7 @@ fn most_frames(particles: usize) -> usize {
 }
 
 /// Columns of a frame, lengths in mm.
-fn columns(particles: &[(usize, &Particle)]) -> [Vec<f32>; COLUMNS] {
+fn columns(particles: &[(usize, Particle)]) -> [Vec<f32>; COLUMNS] {
     let mut columns: [Vec<f32>; COLUMNS] =
         std::array::from_fn(|_| Vec::with_capacity(particles.len()));
     for (_, particle) in particles {

@@ -64,7 +64,7 @@ impl Bonded<3> for CubicBody {
         CONTACT * self.lattice.normal
     }
 
-    fn frequency(&self, control: &mut Control<'_>) -> Result<f64, Error> {
+    fn frequency(&mut self, control: &mut Control<'_>) -> Result<f64, Error> {
         self.largest_frequency(control)
     }
 

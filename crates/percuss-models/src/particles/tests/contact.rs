@@ -337,10 +337,10 @@ fn memory_is_estimated_before_it_is_taken() {
         0.2,
     );
     let (body, _) = setup::build(&scenario, &mut Control::default()).unwrap();
-    // State twice, motion, masses and weights; and a frame of fields.
-    let arrays = body.rows.len() * body.stride * 17 * 8;
-    let frame = size_of::<solver::Particle>() + 3 * size_of::<solver::frames::Bond>();
-    let taken = (arrays + body.particles().count() * frame) as f64;
+    // State, motion, masses and weights; arrays of a file before they are packed, and three bonds.
+    let arrays = body.rows.len() * body.stride * 13 * 8;
+    let file = 65 + 3 * size_of::<solver::frames::Bond>();
+    let taken = (arrays + body.particles().count() * file) as f64;
     let estimated = Particles.estimate(&scenario).memory;
     assert!(
         (1.0..2.0).contains(&(estimated / taken)),

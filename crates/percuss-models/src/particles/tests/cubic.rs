@@ -154,7 +154,7 @@ fn energy_and_momenta_are_kept() {
 #[test]
 fn the_frequency_is_the_largest() {
     for moved in [None, moved(0.3, 1)] {
-        let start = shaken(0.22, moved);
+        let mut start = shaken(0.22, moved);
         let largest = 2.0 / (start.frequency(&mut Control::default()).unwrap() / 1.05);
         let grows = |part: f64| {
             let mut body = start.clone();

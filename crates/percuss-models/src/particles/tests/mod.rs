@@ -1,5 +1,6 @@
 //! Exact tests of the lattice and of its contact with rigid bodies.
 
+mod balls;
 mod contact;
 mod cracks;
 mod cubic;
@@ -9,6 +10,7 @@ mod flight;
 mod fracture;
 mod lattice;
 mod motion;
+mod orientation;
 mod packing;
 
 use super::{
