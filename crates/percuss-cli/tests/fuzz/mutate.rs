@@ -67,7 +67,12 @@ fn is_number(word: &str) -> bool {
 
 /// One of the texts with one to four changes; words and lines also come from the others.
 pub fn mutated(draw: &mut Draw, texts: &[String]) -> Vec<u8> {
-    let mut text = texts[draw.below(texts.len())].clone();
+    let text = texts[draw.below(texts.len())].clone();
+    changed(draw, text, texts)
+}
+
+/// A text with one to four changes, for which words and lines come from texts.
+pub fn changed(draw: &mut Draw, mut text: String, texts: &[String]) -> Vec<u8> {
     for _ in 0..=draw.below(4) {
         let other = &texts[draw.below(texts.len())];
         text = match draw.below(8) {
