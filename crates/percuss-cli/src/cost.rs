@@ -1,6 +1,6 @@
 //! Notes on the cost of a computation, before it starts.
 
-pub use percuss::cost::of_run;
+pub use percuss::cost::{of_run, of_runs};
 use percuss::{
     input_file::size,
     model::{Estimate, time_in_words},

@@ -12,7 +12,7 @@ use percuss_serve::{Options, RequestLimits, Server};
 
 use super::targets::{BROKEN, End};
 
-/// Waiting for a response. The server ends a run after a second.
+/// Waiting for a response. The server ends a run after five seconds.
 const PATIENCE: Duration = Duration::from_secs(25);
 /// Longest response to a request that is refused, beside the text of the case [bytes].
 const LONGEST_REFUSAL: usize = 20_000;
@@ -20,7 +20,7 @@ const LONGEST_REFUSAL: usize = 20_000;
 static ADDRESS: LazyLock<SocketAddr> = LazyLock::new(|| {
     let server = Server::bind(Options {
         bounds: RequestLimits {
-            seconds: 1,
+            seconds: 5,
             ..RequestLimits::default()
         },
         ..Options::default()

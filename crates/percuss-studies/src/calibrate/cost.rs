@@ -10,7 +10,8 @@ impl Problem {
         let cases = self.observations.iter();
         let cases = cases.filter_map(|o| o.scenario(&self.fitted, &middle).ok());
         let cases: Vec<Scenario> = cases.collect();
-        let once: Estimate = cases.iter().map(|c| cost::of_run(self.model, c)).sum();
+        let runs = cases.iter().map(|c| cost::of_run(self.model, c));
+        let once: Estimate = runs.map(|run| cost::of_runs(run, 1.0)).sum();
         let fit = once.times(fit::evaluations(self.fitted.len()) as f64);
         let sampled = settings.sampling.map_or(0, |sampling| {
             sampling.ensembles * sampling.walkers * (sampling.burn_in + sampling.steps)
