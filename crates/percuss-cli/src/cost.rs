@@ -1,9 +1,9 @@
 //! Notes on the cost of a computation, before it starts.
 
+pub use percuss::cost::{of_run, of_runs};
 use percuss::{
-    Scenario,
     input_file::size,
-    model::{self, Estimate, Model, time_in_words},
+    model::{Estimate, time_in_words},
 };
 
 use crate::diagnostic;
@@ -15,14 +15,6 @@ const NOTABLE: f64 = 30.0;
 pub fn tell(estimate: Estimate, quiet: bool) {
     if let Some(words) = note(estimate).filter(|_| !quiet) {
         diagnostic::print(&format!("note: {words}\n"));
-    }
-}
-
-/// Estimated cost of a model's run of a case; of none where the model does not apply.
-pub fn of_run(model: &dyn Model, scenario: &Scenario) -> Estimate {
-    match model::applicability(model, scenario) {
-        Ok(_) => model.estimate(scenario),
-        Err(_) => Estimate::LITTLE,
     }
 }
 

@@ -216,11 +216,16 @@ fn an_interrupt_ends_it() {
     use crate::support::{interrupt, names_in, spawn};
 
     let folder = TempDir::new().unwrap();
-    let arguments = [&WILKINS[..], &[YIELD, "--steps", "1000000", "--out", "out"]].concat();
+    let arguments = [
+        &WILKINS[..],
+        &[YIELD, "--steps", "10000000", "--out", "out"],
+    ]
+    .concat();
     let child = spawn(folder.path(), &arguments);
     // The handler stands before the first run of a model.
     thread::sleep(Duration::from_secs(2));
     let said = interrupt(child);
     assert!(said.contains("the calibration was stopped"), "{said}");
+    assert!(said.starts_with("note: estimated cost: "), "{said}");
     assert!(names_in(&folder.path().join("out")).is_empty());
 }

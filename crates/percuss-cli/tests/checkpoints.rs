@@ -145,3 +145,49 @@ fn a_checkpoint_outlives_a_loss_of_power() {
         );
     }
 }
+
+/// The program with another number for its version in all of its texts.
+#[cfg(target_os = "linux")]
+fn of_another_version(folder: &std::path::Path) -> std::path::PathBuf {
+    let version = env!("CARGO_PKG_VERSION");
+    let (start, _) = version.rsplit_once('.').unwrap();
+    let other = start.replace(|c: char| c.is_ascii_digit(), "9");
+    let (start, other) = (format!("{start}."), format!("{other}."));
+    let mut program = fs::read(env!("CARGO_BIN_EXE_percuss")).unwrap();
+    let mut place = 0;
+    while place + start.len() <= program.len() {
+        if &program[place..place + start.len()] == start.as_bytes() {
+            program[place..place + start.len()].copy_from_slice(other.as_bytes());
+        }
+        place += 1;
+    }
+    let path = folder.join("another-version");
+    fs::copy(env!("CARGO_BIN_EXE_percuss"), &path).unwrap();
+    fs::write(&path, program).unwrap();
+    path
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn what_another_version_began_is_refused_and_kept() {
+    let folder = shot(CASE);
+    let path = folder.path();
+    let program = of_another_version(path);
+    let sweep = "base = 'shot.toml'\nmodel = 'crater_energy'\nsamples = 4\ndesign = 'sobol'\n[[parameter]]\nkey = 'projectile.impact_velocity'\nuniform = { from = '100 m/s', to = '300 m/s' }\n";
+    fs::write(path.join("sweep.toml"), sweep).unwrap();
+    let arguments = ["sweep", "sweep.toml", "--out", "rows", "--quiet"];
+    let began = std::process::Command::new(&program)
+        .args(arguments)
+        .current_dir(path)
+        .status();
+    assert!(began.unwrap().success());
+    let manifest = fs::read(path.join("rows/manifest.json")).unwrap();
+    let said = percuss(path, [&arguments[..], &["--resume"]].concat());
+    assert_eq!(said.code, 2, "{}", said.stderr);
+    assert!(
+        said.stderr.contains("its `percuss_version` is \"9.9."),
+        "{}",
+        said.stderr
+    );
+    assert_eq!(fs::read(path.join("rows/manifest.json")).unwrap(), manifest);
+}

@@ -202,3 +202,22 @@ fn wrong_arguments_are_refused() {
         missing.stderr
     );
 }
+
+#[test]
+fn a_long_validation_says_first_what_it_will_cost() {
+    use std::io::{BufRead, BufReader};
+
+    use crate::support::spawn;
+
+    let folder = TempDir::new().unwrap();
+    let mut child = spawn(
+        folder.path(),
+        &["validate", "--model", "axi", "--kind", "taylor"],
+    );
+    let mut line = String::new();
+    let mut said = BufReader::new(child.stderr.take().unwrap());
+    said.read_line(&mut line).unwrap();
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(line.starts_with("note: estimated cost: "), "{line}");
+}

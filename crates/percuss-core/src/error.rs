@@ -279,8 +279,14 @@ pub(crate) fn did_you_mean(suggestion: &Option<String>) -> String {
         .map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
 }
 
+/// Length of a name above which no candidate is looked for: the time for it grows with the length [bytes].
+const LONGEST_MISTYPED: usize = 200;
+
 /// The candidate nearest to a mistyped name, if one is near enough to be meant.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    if name.len() > LONGEST_MISTYPED {
+        return None;
+    }
     let name = name.to_lowercase();
     candidates
         .into_iter()
@@ -301,4 +307,18 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 /// Bytes that two names have in common at their start.
 fn common_start(a: &str, b: &str) -> usize {
     a.bytes().zip(b.bytes()).take_while(|(a, b)| a == b).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_name_is_no_mistyped_one() {
+        let nearest_to = |name: &str| nearest(name, ["copper", "steel"]);
+        assert_eq!(nearest_to("coper").as_deref(), Some("copper"));
+        let start = std::time::Instant::now();
+        assert_eq!(nearest_to(&"copper".repeat(1 << 20)), None);
+        assert!(start.elapsed().as_secs() < 5);
+    }
 }

@@ -6,6 +6,7 @@ pub mod axisymmetric;
 pub mod calibrate;
 pub mod compare;
 pub mod converge;
+pub mod cost;
 pub mod experiments;
 pub mod limit;
 #[cfg(test)]

@@ -35,8 +35,8 @@ pub use percuss_input::{case, inputs, lsdyna, material_tables};
 pub use percuss_models::{analytic, axi, chain, fdm, model, particles};
 #[doc(inline)]
 pub use percuss_studies::{
-    axisymmetric, calibrate, compare, converge, experiments, limit, measured_curves, model_error,
-    summary, sweep, uncertainty, v50, validate,
+    axisymmetric, calibrate, compare, converge, cost, experiments, limit, measured_curves,
+    model_error, summary, sweep, uncertainty, v50, validate,
 };
 
 /// The library example of the quick start, run from the folder that it stands in.

@@ -7,13 +7,14 @@ use percuss::{
     case,
     experiments::{Experiment, Kind},
     material::Library,
-    model::{self, MODELS, Model},
+    model::{self, Estimate, MODELS, Model},
     validate::{self, Group, Grouping, PredictionRecord, Standing, Validation},
 };
 use percuss_report::validation::{self, Origin};
 use serde::Serialize;
 
 use crate::{
+    cost,
     failure::Failure,
     file_list::FileList,
     output,
@@ -111,7 +112,9 @@ struct ValidationOutput {
 impl Validate {
     pub fn run(&self) -> Result<(), Failure> {
         let mut progress = Progress::new(!self.quiet);
-        let found = self.find(&mut progress.callback());
+        let found = self.find(&mut progress.callback(), &|cost| {
+            cost::tell(cost, self.quiet)
+        });
         progress.finish();
         let ValidationOutput {
             validation,
@@ -135,13 +138,18 @@ impl Validate {
 
     /// Output of --json.
     pub fn execute(&self, on_progress: ProgressCallback<'_>) -> Result<Response, Failure> {
-        let found = self.find(on_progress)?;
+        let found = self.find(on_progress, &|_| ())?;
         Response::json_of(&record(&found.validation, found.data), found.files)
     }
 
-    fn find(&self, on_progress: ProgressCallback<'_>) -> Result<ValidationOutput, Failure> {
+    fn find(
+        &self,
+        on_progress: ProgressCallback<'_>,
+        tell: &dyn Fn(Estimate),
+    ) -> Result<ValidationOutput, Failure> {
         let (models, library) = (self.models()?, self.library()?);
         let (tests, data) = self.tests(&library)?;
+        tell(validate::estimate(&models, &tests, &library));
         if let Some(out) = &self.out {
             make_folder(out)?;
         }

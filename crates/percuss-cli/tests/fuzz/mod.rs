@@ -1,63 +1,32 @@
 //! Mutated input of every kind: each ends with a result or with a short typed error, in limited time.
 //!
 //! `PERCUSS_FUZZ` sets how many inputs of each kind, `PERCUSS_SEED` which. An input that fails is written to `tests/corpus/KIND`, whose
-//! files are tried again by every later run: they are the tests of what was found.
+//! files are tried again by every later run: they are the tests of what was found. `fuzz/` gives inputs to the same targets, guided by the
+//! coverage that they reach.
 
+mod http;
 mod mutate;
+mod oracle;
 mod targets;
 
 use std::{
     collections::BTreeMap,
     fs,
-    panic::{AssertUnwindSafe, catch_unwind},
     path::{Path, PathBuf},
-    time::{Duration, Instant},
 };
 
 use crate::support::Draw;
+use oracle::tried;
 use targets::{Target, targets};
 
 /// Inputs of each kind, of a run that asks for no other number.
 const INPUTS: u64 = 2000;
-/// Longest time of an input.
-const LONGEST: Duration = Duration::from_secs(30);
-/// Longest message of an error [bytes].
-const LONGEST_MESSAGE: usize = 6000;
-
 fn from_environment(name: &str, default: u64) -> u64 {
     std::env::var(name).map_or(default, |text| text.parse().unwrap())
 }
 
 fn corpus(kind: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/corpus")
-        .join(kind)
-}
-
-/// How a target ends with an input, or what is wrong with that.
-fn tried(target: &Target, bytes: &[u8]) -> Result<&'static str, String> {
-    let start = Instant::now();
-    let end = catch_unwind(AssertUnwindSafe(|| (target.run)(bytes)));
-    let end = end.map_err(|panic| {
-        let words = panic.downcast_ref::<String>().cloned();
-        let words = words.or_else(|| panic.downcast_ref::<&str>().map(|&text| text.to_owned()));
-        format!("it panicked: {}", words.unwrap_or_default())
-    })?;
-    if start.elapsed() > LONGEST {
-        return Err(format!("it took {:?}", start.elapsed()));
-    }
-    match end {
-        Ok(kind) => Ok(kind),
-        Err(message) if message.is_empty() => Err("an error without a message".to_owned()),
-        Err(message) if message.len() > LONGEST_MESSAGE => {
-            let start: String = message.chars().take(300).collect();
-            Err(format!("a message of {} bytes: {start}", message.len()))
-        }
-        Err(message) => match message.strip_prefix(targets::BROKEN) {
-            Some(what) => Err(what.to_owned()),
-            None => Ok("refused"),
-        },
-    }
+    Path::new(crate::support::TESTS).join("corpus").join(kind)
 }
 
 /// Keeps an input that failed.
@@ -130,5 +99,5 @@ macro_rules! fuzz {
 }
 
 fuzz! {
-    case, material_file, sweep, uncertainty, calibration, tests_of_limits, tests_of_depths, lsdyna, checkpoint, manifest, command_line,
+    case, material_file, sweep, uncertainty, calibration, tests_of_limits, tests_of_depths, lsdyna, checkpoint, manifest, command_line, http,
 }

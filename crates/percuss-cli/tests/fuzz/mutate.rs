@@ -39,6 +39,9 @@ const UNITS: [&str; 14] = [
     "mm", "um", "m", "km", "m/s", "km/s", "us", "s", "MPa", "GPa", "K", "J/m2", "kg/m3", "parsec",
 ];
 
+/// Length up to which a word is repeated [bytes].
+const LONGEST_WORD: usize = 1 << 20;
+
 /// A text in words: runs of letters, digits, points and signs of numbers; everything else is a word of one character.
 fn words(text: &str) -> Vec<&str> {
     let is_part = |c: char| c.is_alphanumeric() || "_.-+/".contains(c);
@@ -67,7 +70,12 @@ fn is_number(word: &str) -> bool {
 
 /// One of the texts with one to four changes; words and lines also come from the others.
 pub fn mutated(draw: &mut Draw, texts: &[String]) -> Vec<u8> {
-    let mut text = texts[draw.below(texts.len())].clone();
+    let text = texts[draw.below(texts.len())].clone();
+    changed(draw, text, texts)
+}
+
+/// A text with one to four changes, for which words and lines come from texts.
+pub fn changed(draw: &mut Draw, mut text: String, texts: &[String]) -> Vec<u8> {
     for _ in 0..=draw.below(4) {
         let other = &texts[draw.below(texts.len())];
         text = match draw.below(8) {
@@ -109,11 +117,16 @@ fn with_other_word(draw: &mut Draw, text: &str, other: &str) -> String {
         3 => draw.of(&UNITS).to_owned(),
         4 => draw.of(&TEXTS).to_owned(),
         5 => String::new(),
-        6 => words[place].repeat(1 + draw.below(3) * 700),
+        6 => repeated(&words[place], 1 + draw.below(3) * 700),
         _ if others.is_empty() => String::new(),
         _ => others[draw.below(others.len())].to_owned(),
     };
     words.concat()
+}
+
+/// A word so many times, as far as the memory of a test should go: a word that is repeated is longer the next time.
+fn repeated(word: &str, times: usize) -> String {
+    word.repeat(times.min(1 + LONGEST_WORD / word.len().max(1)))
 }
 
 /// A number some orders of magnitude away.

@@ -27,6 +27,8 @@ use percuss_cli::VirtualFiles;
 use percuss_report::sweep::{SweepFolder, status};
 use tempfile::TempDir;
 
+use super::http;
+
 /// Start of a message that says that an invariant does not hold.
 pub const BROKEN: &str = "broken: ";
 /// Runs that are expected to take longer, and those that do, are not waited for.
@@ -34,7 +36,7 @@ const QUICK: f64 = 0.02;
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// End of an input: its kind, or the message of an error.
-type End = Result<&'static str, String>;
+pub type End = Result<&'static str, String>;
 
 /// What an input is given to.
 type Attempt = Box<dyn Fn(&[u8]) -> End>;
@@ -94,6 +96,7 @@ pub fn targets(kind: &str) -> Target {
         "checkpoint" => of_checkpoints(),
         "manifest" => of_manifests(),
         "command_line" => Target::of_text("command_line", command_lines(), command_line),
+        "http" => Target::new("http", http::seeds(), http::request),
         _ => panic!("{kind}"),
     }
 }
@@ -108,7 +111,7 @@ fn refused<T>(read: Result<T, Error>) -> End {
 }
 
 fn files(folder: &str, ending: &str) -> Vec<String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let root = Path::new(crate::support::TESTS).join(folder);
     let mut paths: Vec<_> = fs::read_dir(&root)
         .unwrap()
         .flat_map(|entry| {
@@ -127,7 +130,7 @@ fn files(folder: &str, ending: &str) -> Vec<String> {
 const STARTER: &str = include_str!("../../src/commands/new/starter.toml");
 
 fn cases() -> Vec<String> {
-    let mut cases = files("../../cases", "scenario.toml");
+    let mut cases = files("../../../cases", "scenario.toml");
     cases.push(STARTER.to_owned());
     cases
 }
@@ -210,7 +213,7 @@ fn of_material_files() -> Target {
 }
 
 fn sweeps() -> Vec<String> {
-    let mut sweeps = files("tests/bad-sweeps", ".toml");
+    let mut sweeps = files("bad-sweeps", ".toml");
     sweeps.push(SWEEP.to_owned());
     sweeps.push(GRID.to_owned());
     sweeps
@@ -239,9 +242,9 @@ fn sweep(text: &str) -> End {
 }
 
 fn uncertainties() -> Vec<String> {
-    let mut seeds = files("tests/bad-uncertainties", ".toml");
+    let mut seeds = files("bad-uncertainties", ".toml");
     seeds.extend(
-        files("../../cases", "scenario.toml")
+        files("../../../cases", "scenario.toml")
             .into_iter()
             .filter(|text| text.contains("uncertainty")),
     );

@@ -1,5 +1,6 @@
 //! Running the program and looking at what it says.
 
+mod inputs;
 pub mod module_graph;
 pub mod module_source;
 pub mod rust_tokens;
@@ -16,13 +17,10 @@ use std::{
 use serde_json::Value;
 use tempfile::TempDir;
 
-/// A quick case.
-pub const CASE: &str = r#"
-title = "Copper on aluminium"
-projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }
-target = { material = "aluminium-2024-t351", thickness = "25 mm" }
-chain = { projectile_elements = 20, target_elements = 40 }
-"#;
+pub use inputs::{CASE, Draw};
+
+/// Folder of these tests.
+pub const TESTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests");
 
 /// A folder that holds files of these names and texts.
 pub fn folder_with(files: &[(&str, &str)]) -> TempDir {
@@ -197,21 +195,4 @@ pub fn blocks(page: &str, language: &str) -> Vec<String> {
     parts
         .map(|part| part.split("```").next().unwrap_or_default().to_owned())
         .collect()
-}
-
-/// Numbers that look drawn, the same in every run.
-pub struct Draw(pub u64);
-
-impl Draw {
-    pub fn below(&mut self, end: usize) -> usize {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) as usize % end
-    }
-
-    pub fn of<'a, T: ?Sized>(&mut self, words: &[&'a T]) -> &'a T {
-        words[self.below(words.len())]
-    }
 }

@@ -7,7 +7,8 @@ use serde::Serialize;
 use super::{AxisymmetricAnswer, BUDGET, MODEL, answer, seconds};
 use crate::{
     Error, Refusal, Scenario,
-    model::{self, memory, time_in_words},
+    axi::Axi,
+    model::{self, Estimate, Model, memory, time_in_words},
 };
 
 /// Meshes of an axisymmetric answer.
@@ -145,6 +146,15 @@ impl Request {
             meshes,
             budget: None,
         }
+    }
+
+    /// Estimated cost of the answer of a case; of none where there is no answer.
+    pub fn estimate(&self, scenario: &Scenario) -> Estimate {
+        let plan = plan(scenario, self.meshes, self.budget);
+        let meshes = plan.into_iter().flat_map(|plan| plan.cells);
+        meshes
+            .map(|cells| Axi.estimate(&on_cells(scenario, cells)))
+            .sum()
     }
 
     /// The answer of a case; where there is none, its reason. `progress` as in [`answer`].

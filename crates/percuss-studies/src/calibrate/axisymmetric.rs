@@ -34,8 +34,8 @@ use crate::{
 
 /// Rounds after which the correction is left as it is, with a warning.
 const ROUNDS: usize = 6;
-/// Rounds that are expected, for the progress.
-const EXPECTED: f64 = 3.0;
+/// Rounds that are expected, for the progress and the estimated cost.
+pub(super) const EXPECTED: f64 = 3.0;
 /// Difference of corrected model and axisymmetric number that ends the rounds: a part of what the impact changed, or of the
 /// discretisation uncertainty.
 const SETTLED: f64 = 0.01;

@@ -40,6 +40,11 @@ pub(super) struct Fit {
     pub(super) warnings: Vec<String>,
 }
 
+/// How often least squares compute all measured values: a guess of a dozen steps from each start, and the rounds after them.
+pub(super) fn evaluations(parameters: usize) -> usize {
+    (TRIED + 1) * parameters + (12 * STARTS + ROUNDS) * (2 * parameters + 2)
+}
+
 /// Finds the values with the smallest sum of squares, from several starts.
 pub(super) fn least_squares(
     problem: &Problem,
@@ -51,10 +56,9 @@ pub(super) fn least_squares(
         let runs = problem.runs.load(Ordering::Relaxed);
         heard(problem, observer(Stage::LeastSquares, part, runs));
     };
-    // A dozen steps from each start, and the rounds after them: a guess, for the time left.
     let counter = Counter {
         done: AtomicUsize::new(0),
-        total: (TRIED + 1) * count + (12 * STARTS + ROUNDS) * (2 * count + 2),
+        total: evaluations(count),
         report: &report,
     };
     let solver = Solver { problem, counter };

@@ -22,6 +22,7 @@
 mod axisymmetric;
 mod calibrated;
 mod correction;
+mod cost;
 mod diagnostics;
 mod fit;
 mod identifiability;

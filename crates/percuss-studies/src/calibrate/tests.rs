@@ -2,10 +2,12 @@ use std::ops::ControlFlow;
 
 use super::*;
 use crate::{
+    axisymmetric::{ReferenceMeshes, Request},
     case::{self, load_str},
+    cost,
     experiments::{self, Experiment, Kind},
     material::{Library, MaterialTable},
-    model::{self, Control, model},
+    model::{self, Control, Estimate, model},
     validate,
 };
 
@@ -375,6 +377,34 @@ fn a_wrong_key_unit_or_range_is_placed() {
         assert!(message.contains(words), "{text}: {message}");
         assert_eq!(at, place, "{text}");
     }
+}
+
+/// The estimate is that of the runs which are made, within a factor of four.
+#[test]
+fn the_cost_is_known_before_it_starts() {
+    let tests = synthetic(Kind::Depth, "poncelet", "", &[0.0; 6]);
+    let problem = problem("poncelet", &tests, &PONCELET, Noise::Relative(0.01));
+    let sampled = Settings {
+        sampling: Some(Sampling {
+            ensembles: 2,
+            walkers: 8,
+            steps: 60,
+            burn_in: 20,
+        }),
+        seed: 0,
+    };
+    let alone = cost::of_runs(Estimate::LITTLE, 1.0).seconds;
+    for settings in [NO_SAMPLE, sampled] {
+        let expected = problem.estimate(&settings, None).seconds / alone;
+        let before = problem.runs.load(std::sync::atomic::Ordering::Relaxed);
+        let made = (run(&problem, &settings, GO_ON).unwrap().runs - before) as f64;
+        let ratio = expected / made;
+        assert!((0.25..4.0).contains(&ratio), "{expected} {made}");
+    }
+    // With a correction, the axisymmetric runs come on top.
+    let request = Request::whole(ReferenceMeshes::Standard);
+    let corrected = problem.estimate(&NO_SAMPLE, Some(request));
+    assert!(corrected.steps > 1000.0 && corrected.memory > 0.0);
 }
 
 #[test]

@@ -45,7 +45,8 @@ pub(crate) use crate::inputs::{Copula, Distribution, Values, score, values};
 use crate::{
     Error,
     case::{Document, ScenarioChange, Template},
-    model::{self, Estimate, Model},
+    cost,
+    model::{Estimate, Model},
 };
 
 /// Runs from which the cost of a sweep is estimated.
@@ -133,8 +134,7 @@ impl Sweep {
         let few = self.spread(runs.min(ESTIMATED_RUNS));
         let part = runs as f64 / few.len().max(1) as f64;
         let scenarios = few.iter().filter_map(|i| self.run(*i).scenario.ok());
-        let applying = scenarios.filter(|s| model::applicability(self.model, s).is_ok());
-        let estimates = applying.map(|scenario| self.model.estimate(&scenario));
+        let estimates = scenarios.map(|scenario| cost::of_run(self.model, &scenario));
         estimates.sum::<Estimate>().times(part)
     }
 

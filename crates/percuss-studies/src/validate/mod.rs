@@ -35,7 +35,11 @@ pub use statistics::Errors;
 use prediction::Computed;
 
 use crate::{
-    Error, Scenario, experiments::Experiment, material::Library, model::Model, validity::FittedTo,
+    Error, Scenario, cost,
+    experiments::Experiment,
+    material::Library,
+    model::{Estimate, Model},
+    validity::FittedTo,
 };
 
 /// What every model said of every test.
@@ -58,6 +62,36 @@ impl Validation {
     }
 }
 
+/// Each test with each of its material records, by number.
+fn jobs(tests: &[Experiment]) -> impl Iterator<Item = (usize, usize)> {
+    let records = |test: &Experiment| test.projectile_materials.len().max(1);
+    let numbered = tests.iter().enumerate();
+    numbered.flat_map(move |(i, test)| (0..records(test)).map(move |record| (i, record)))
+}
+
+/// A test as a case, with one of its material records.
+fn scenario(test: &Experiment, record: usize, library: &Library) -> Result<Scenario, String> {
+    let name = test.projectile_materials.get(record);
+    test.scenario(name.map_or("", String::as_str), library)
+}
+
+/// Estimated cost of [`run`].
+pub fn estimate(
+    models: &[&'static dyn Model],
+    tests: &[Experiment],
+    library: &Library,
+) -> Estimate {
+    let of_job = |(test, record): (usize, usize)| {
+        let (test, models) = (&tests[test], models.iter());
+        let giving = models.filter(|m| m.validity().predicts.contains(&test.kind.quantity()));
+        match scenario(test, record, library) {
+            Ok(case) => giving.map(|model| cost::of_run(*model, &case)).sum(),
+            Err(_) => Estimate::LITTLE,
+        }
+    };
+    jobs(tests).map(of_job).sum()
+}
+
 /// Computes every test with every model that applies, on all cores.
 ///
 /// `progress` is called with the part done, 0 to 1, from several threads; [`ControlFlow::Break`] ends the validation.
@@ -70,18 +104,11 @@ pub fn run(
     library: &Library,
     progress: &(dyn Fn(f64) -> ControlFlow<()> + Sync),
 ) -> Result<Validation, Error> {
-    let records = |test: &Experiment| test.projectile_materials.len().max(1);
-    let jobs: Vec<(usize, usize)> = tests
-        .iter()
-        .enumerate()
-        .flat_map(|(i, test)| (0..records(test)).map(move |record| (i, record)))
-        .collect();
+    let jobs: Vec<(usize, usize)> = jobs(tests).collect();
     let total = (jobs.len() * models.len()).max(1);
     let (done, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
     let compute = |&(test, record): &(usize, usize)| -> Vec<Prediction> {
-        let names = &tests[test].projectile_materials;
-        let name = names.get(record).map_or("", String::as_str);
-        let scenario = tests[test].scenario(name, library);
+        let scenario = scenario(&tests[test], record, library);
         let regime = scenario
             .as_ref()
             .map_or_else(|_| String::new(), prediction::regime_of);
@@ -133,8 +160,7 @@ pub(crate) fn with_main_records<'a>(
     library: &'a Library,
 ) -> impl Iterator<Item = (Prediction, Scenario)> {
     let of_test = move |(index, test): (usize, &'a Experiment)| {
-        let name = test.projectile_materials.first();
-        let scenario = test.scenario(name.map_or("", String::as_str), library);
+        let scenario = scenario(test, 0, library);
         let case = Computed {
             test,
             index,

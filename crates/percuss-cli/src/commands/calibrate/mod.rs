@@ -25,6 +25,7 @@ use percuss::{
 };
 
 use crate::{
+    cost,
     failure::Failure,
     figure_formats::FigureArgs,
     file_list::FileList,
@@ -152,6 +153,7 @@ impl Calibrate {
         let problem = self.problem(&VirtualFiles::default())?;
         let settings = self.settings(&problem)?;
         let folder = RunFolder::wanted(self.out.as_deref(), None, self.figures.formats())?;
+        cost::tell(problem.estimate(&settings, self.request()), self.quiet);
         let found = self.watched(problem, &settings)?;
         let files = written(folder, &found)?;
         self.print(&found, &files)
@@ -241,26 +243,22 @@ impl Calibrate {
         watch: Observer<'_>,
     ) -> Result<Calibrated, Failure> {
         let name = self.name.as_deref();
-        let problem = match self.meshes() {
+        let problem = match self.request() {
             None => problem,
-            Some(meshes) => {
-                let request = Request {
-                    meshes,
-                    budget: None,
-                };
-                problem.corrected(request, self.seed, watch)?
-            }
+            Some(request) => problem.corrected(request, self.seed, watch)?,
         };
         Ok(Calibrated::of(&problem, settings, name, watch)?)
     }
 
-    fn meshes(&self) -> Option<ReferenceMeshes> {
-        self.reference.as_deref().and_then(ReferenceMeshes::named)
+    /// Axisymmetric answers that the model is corrected to.
+    fn request(&self) -> Option<Request> {
+        let meshes = ReferenceMeshes::named(self.reference.as_deref()?)?;
+        Some(Request::whole(meshes))
     }
 
     fn stages(&self) -> Stages {
         Stages {
-            corrected: self.meshes().is_some(),
+            corrected: self.request().is_some(),
             sampled: !self.least_squares,
         }
     }
@@ -268,7 +266,7 @@ impl Calibrate {
     /// Solves the problem with a progress bar per phase.
     fn watched(&self, problem: Problem, settings: &Settings) -> Result<Calibrated, Failure> {
         let stop = workers::stop_on_request();
-        let first = match self.meshes() {
+        let first = match self.request() {
             Some(_) => Stage::Correcting,
             None => Stage::LeastSquares,
         };

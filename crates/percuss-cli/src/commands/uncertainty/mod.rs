@@ -151,7 +151,8 @@ impl Uncertainty {
     pub fn run(&self) -> Result<(), Failure> {
         let task = self.task(&VirtualFiles::default())?;
         let of_run = cost::of_run(task.model, &task.study.scenario);
-        cost::tell(of_run.times(task.settings.samples as f64), self.quiet);
+        let whole = cost::of_runs(of_run, task.settings.samples as f64);
+        cost::tell(whole, self.quiet);
         let mut progress = Progress::new(!self.quiet);
         let found = self.find(&task, &workers::stop_on_request(), &mut progress.callback());
         progress.finish();

@@ -1,0 +1,26 @@
+//! Estimated cost of a calibration, before it starts.
+
+use super::{Problem, Settings, axisymmetric::EXPECTED, fit};
+use crate::{Scenario, axisymmetric::Request, cost, model::Estimate};
+
+impl Problem {
+    /// Estimated cost of its solution, after the correction to axisymmetric answers where one is asked for.
+    pub fn estimate(&self, settings: &Settings, correction: Option<Request>) -> Estimate {
+        let middle = self.middle();
+        let cases = self.observations.iter();
+        let cases = cases.filter_map(|o| o.scenario(&self.fitted, &middle).ok());
+        let cases: Vec<Scenario> = cases.collect();
+        let runs = cases.iter().map(|c| cost::of_run(self.model, c));
+        let once: Estimate = runs.map(|run| cost::of_runs(run, 1.0)).sum();
+        let fit = once.times(fit::evaluations(self.fitted.len()) as f64);
+        let sampled = settings.sampling.map_or(0, |sampling| {
+            sampling.ensembles * sampling.walkers * (sampling.burn_in + sampling.steps)
+        });
+        let corrected = correction.map(|request| {
+            let answers: Estimate = cases.iter().map(|c| request.estimate(c)).sum();
+            [fit.times(EXPECTED), answers].into_iter().sum()
+        });
+        let parts = [Some(fit), Some(once.times(sampled as f64)), corrected];
+        parts.into_iter().flatten().sum()
+    }
+}

@@ -1,0 +1,3 @@
+#![no_main]
+
+percuss_fuzz::guided!();
