@@ -167,7 +167,10 @@ fn broken(model: &dyn Model, scenario: &Scenario, result: &RunResult) -> Option<
     let mut dished = result.details.iter();
     let dished = dished.find(|detail| detail.name == "deflection of the plate at the rim");
     let dished = dished.map_or(0.0, |detail| detail.value * 1e-3);
-    if depth - dished > thickness + nose && result.outcome != Outcome::Perforated && !model.has_fields() {
+    if depth - dished > thickness + nose
+        && result.outcome != Outcome::Perforated
+        && !model.has_fields()
+    {
         return Some(format!("depth {depth} m in a target of {thickness} m"));
     }
     if depth < -1e-3 * scenario.projectile.length {

@@ -96,7 +96,7 @@ impl Driven {
         }
     }
 
-    fn from_middle(&self, [x, z]: [f64; 2]) -> [f64; 2] {
+    fn off_middle(&self, [x, z]: [f64; 2]) -> [f64; 2] {
         [x - self.middle[0], z - self.middle[1]]
     }
 
@@ -104,7 +104,7 @@ impl Driven {
     fn stress(&self, [x, z]: [f64; 2]) -> f64 {
         let (mut sum, mut mass) = (0.0, 0.0);
         for (row, place) in self.body.particles() {
-            let [a, b] = self.from_middle(self.body.reference(row, place));
+            let [a, b] = self.off_middle(self.body.reference(row, place));
             if a.hypot(b) < 0.7 * self.radius {
                 let own = self.body.mass_of(row, place);
                 let [xx, zz, xz] = fields::stress(&self.body, row, place);
@@ -182,7 +182,7 @@ fn deviation(packing: Packing, criterion: FailureCriterion, end: f64, angle: f64
         let (mut sum, mut farthest) = ([0.0; 2], 0.0_f64);
         let broken = driven.body.bonds();
         for bond in broken.filter(|&bond| driven.body.is_broken(bond) && !cut.contains(&bond)) {
-            let [x, z] = driven.from_middle(driven.body.middle(bond));
+            let [x, z] = driven.off_middle(driven.body.middle(bond));
             let distance = x.hypot(z);
             farthest = farthest.max(distance);
             if distance > 0.2 * driven.radius {
