@@ -98,6 +98,9 @@ pub(crate) fn fields() -> Vec<Field> {
     fields
 }
 
+/// Longest key of a value that a form shows [bytes]. A long key of a table would stand before each of its values.
+const LONGEST_KEY: usize = 200;
+
 /// Values of a case by dotted key: what a form shows. Empty for a text that is not TOML.
 pub(crate) fn values(text: &str) -> BTreeMap<String, Value> {
     let mut values = BTreeMap::new();
@@ -110,6 +113,9 @@ pub(crate) fn values(text: &str) -> BTreeMap<String, Value> {
 }
 
 fn collect(key: &str, value: &toml::Value, values: &mut BTreeMap<String, Value>) {
+    if key.len() > LONGEST_KEY {
+        return;
+    }
     match value {
         toml::Value::Table(table) => {
             for (name, value) in table {

@@ -103,4 +103,7 @@ fn values_stand_under_their_keys() {
     assert_eq!(values["c.1.d"], json!({ "number": "nan" }));
     assert_eq!(values["e"], true);
     assert!(super::values("a = [").is_empty());
+    let long = "k".repeat(10_000);
+    let values = super::values(&format!("a = 1\n[{long}]\nb = 1\nc = 2"));
+    assert_eq!(values.keys().collect::<Vec<_>>(), ["a"]);
 }
