@@ -33,16 +33,17 @@ impl Card {
         }
     }
 
+    /// A cell of a table in Markdown: the book changes its links to those of pages, but not links in HTML.
     fn cell(&self) -> String {
         let link = format!("../../cases/{}/README.md", self.name);
         let picture = self.picture.as_ref().map(|place| {
             format!(
-                "<a href=\"{link}\"><img src=\"{place}\" alt=\"{}\" width=\"280\"></a><br>",
+                "[<img src=\"{place}\" alt=\"{}\" width=\"280\">]({link})<br>",
                 self.title
             )
         });
         format!(
-            "<td valign=\"top\">{}<a href=\"{link}\"><b>{}</b></a><br><code>{}</code><br>{}</td>",
+            "{}[**{}**]({link})<br>`{}`<br>{}",
             picture.unwrap_or_default(),
             self.title,
             self.name,
@@ -58,7 +59,7 @@ fn sentence_end(text: &str) -> usize {
     ends.next().unwrap_or(text.len())
 }
 
-/// A text of Markdown without links, emphasis and citations, for a cell in HTML.
+/// A text of Markdown without links, emphasis and citations, for a cell of a table.
 fn plain(text: &str) -> String {
     let mut plain = String::new();
     let mut rest = text;
@@ -84,7 +85,10 @@ fn plain(text: &str) -> String {
         }
     }
     plain += rest;
-    plain.replace(['`', '*'], "").replace('<', "&lt;")
+    plain
+        .replace(['`', '*'], "")
+        .replace('<', "&lt;")
+        .replace('|', "\\|")
 }
 
 pub fn page() -> String {
@@ -102,10 +106,11 @@ pub fn page() -> String {
     let cells: Vec<String> = cards.map(|card| card.cell()).collect();
     let rows: String = cells
         .chunks(COLUMNS)
-        .map(|row| format!("<tr>{}</tr>\n", row.concat()))
+        .map(|row| format!("| {} |\n", row.join(" | ")))
         .collect();
+    let head = "| ".repeat(COLUMNS) + "|\n" + &"|---".repeat(COLUMNS) + "|\n";
     format!(
         "# Cases\n\nEach folder has the case, its expected numbers, which a test compares, and a page. `percuss run cases/NAME/scenario.toml` computes one.\n\n\
-         <table>\n{rows}</table>\n"
+         {head}{rows}"
     )
 }
