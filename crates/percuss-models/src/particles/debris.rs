@@ -3,14 +3,15 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::bonded::{At, Bonded, Load, dot, norm, way};
+use super::{
+    bonded::{At, Bonded, Load, dot, norm, way},
+    restitution::linear_damping,
+};
 
 /// Distance beyond contact at which a pair is watched, in spacings; half of it is how far particles go between two searches.
 const WATCHED: f64 = 0.2;
 /// Pairs that one task takes at least.
 const AT_ONCE: usize = 1024;
-/// Halvings of the search for the damping of a restitution.
-const HALVINGS: usize = 60;
 
 /// Law of contact of two particles, as discs with the spacing as diameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,26 +40,10 @@ impl ContactLaw {
             stiffness,
             across: 2.0 * (1.0 - ratio) / (2.0 - ratio),
             friction,
-            damping: damping_of(restitution),
+            damping: linear_damping(restitution),
             diameter,
         }
     }
-}
-
-/// Damping at which two particles part with a part of the velocity at which they met: their force may push, not pull.
-fn damping_of(restitution: f64) -> f64 {
-    let (mut low, mut high) = (0.0_f64, 1.0_f64);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        let tangent = middle / (1.0 - middle * middle).sqrt();
-        let found = (-tangent * (std::f64::consts::PI - 2.0 * tangent.atan())).exp();
-        if found > restitution {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
 }
 
 /// A pair that touches or may touch soon.

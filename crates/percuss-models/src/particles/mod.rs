@@ -18,6 +18,7 @@ mod periodic;
 mod pieces;
 mod places;
 mod plane;
+mod restitution;
 mod results;
 mod row;
 mod run;

@@ -2,14 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::particles::lattice::Solid;
-
-/// Largest damping that is tried: it leaves two hundredths of the velocity.
-const LARGEST_DAMPING: f64 = 3.0;
-/// Halvings of the search for the damping of a restitution.
-const HALVINGS: usize = 50;
-/// Step of the integration that finds a restitution, in the time in which an undamped contact of unit mass, stiffness and velocity swings.
-const STEP: f64 = 0.004;
+use crate::particles::{lattice::Solid, restitution::hertz_damping};
 
 /// Contact of two balls, or of a ball and a plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,7 +58,7 @@ impl HertzLaw {
             stiffness: 4.0 / 3.0 * normal * radius.sqrt(),
             shear: 8.0 * across * radius.sqrt(),
             friction,
-            damping: damping_of(restitution),
+            damping: hertz_damping(restitution),
             mass: 1.0 / meeting.inverse_masses.iter().sum::<f64>(),
         }
     }
@@ -145,43 +138,4 @@ impl Touch {
             false => 0.0,
         }
     }
-}
-
-/// Damping with which balls part with a part of the velocity at which they met.
-fn damping_of(restitution: f64) -> f64 {
-    if restitution >= 1.0 {
-        return 0.0;
-    }
-    let (mut low, mut high) = (0.0, LARGEST_DAMPING);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if restitution_of(middle) > restitution {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
-}
-
-/// Restitution of a damping, whatever the velocity: `x'' = −x^{3/2} − 2 ζ √(3/2) x^{1/4} x'` until the force would pull, by Runge and Kutta.
-fn restitution_of(damping: f64) -> f64 {
-    let factor = 2.0 * damping * 1.5_f64.sqrt();
-    let slope = |[x, v]: [f64; 2]| {
-        let x = x.max(0.0);
-        [v, -x.powf(1.5) - factor * x.powf(0.25) * v]
-    };
-    let along = |[x, v]: [f64; 2], [a, b]: [f64; 2], part: f64| [x + part * a, v + part * b];
-    let mut state = [0.0, 1.0];
-    while state[1] > 0.0 || slope(state)[1] < 0.0 {
-        let first = slope(state);
-        let second = slope(along(state, first, 0.5 * STEP));
-        let third = slope(along(state, second, 0.5 * STEP));
-        let fourth = slope(along(state, third, STEP));
-        for (axis, value) in state.iter_mut().enumerate() {
-            let middle = second[axis] + third[axis];
-            *value += STEP / 6.0 * (first[axis] + 2.0 * middle + fourth[axis]);
-        }
-    }
-    -state[1]
 }

@@ -57,7 +57,7 @@ fn detail(result: &RunResult, name: &str) -> f64 {
 const WALL: &str = "rigid_wall = true";
 const ELASTIC: &str = "restitution = 1.0, friction = 0.0";
 
-/// Approach [µm], force [N] and time [µs] of Hertz's theory, to all digits of the table of the design.
+/// Approach [µm], force [N] and time [µs] of Hertz's theory, from its closed forms by hand.
 #[test]
 fn balls_meet_by_the_theory_of_hertz() {
     let ball = "material = 'own', thickness = '20 mm', back_face = 'free'";
@@ -152,7 +152,7 @@ fn oblique(angle: f64) -> ([f64; 2], RunResult) {
     ([tangential, spin.abs()], result)
 }
 
-/// Test 4: the computed table of the design to its last digit, the published points within 3 %.
+/// Test 4: an independent integration to its last digit, the published points within 3 %.
 #[test]
 fn oblique_balls_are_those_of_the_benchmark() {
     for (angle, exact) in [
