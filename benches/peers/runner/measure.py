@@ -122,7 +122,7 @@ def rounds(checked: list[Checked], count: int, seconds: float) -> dict[tuple[str
         print(f"round {number} of {count}", file=sys.stderr)
         for c, chains in plans:
             results.setdefault((c.program.name, c.work), []).append(run(c.program, c.work, chains)[0])
-        for name, kind, timing in shots(percuss, seconds):
+        for name, kind, timing in complete_runs(percuss, seconds):
             results.setdefault((name, kind), []).append(timing)
     return results
 
@@ -138,21 +138,21 @@ def chains_for(checked: Checked, seconds: float) -> int:
 
 BLOCK = 64
 """Runs of a block of `percuss sweep`."""
-RUNS, SHOTS = "percuss run, to rest", "percuss sweep, to rest"
+RUNS, SWEEPS = "percuss run, to rest", "percuss sweep, to rest"
 
 
-def shots(percuss: Program, seconds: float) -> Iterator[tuple[str, Work, Timing]]:
+def complete_runs(percuss: Program, seconds: float) -> Iterator[tuple[str, Work, Timing]]:
     """percuss's own runs of the same case, which it computes with large strain, contact, border shear and the energy balance: for information."""
     # About how long a run takes [s].
-    run, shot = 6e-3, 2e-3
+    run, swept = 6e-3, 2e-3
     for name, what, kind, each in (
         (RUNS, "runs", ONE_POWER, run),
-        (SHOTS, "shots", BATCH, shot),
-        (SHOTS, "shots", BATCH_ON_TWO, shot),
+        (SWEEPS, "sweep", BATCH, swept),
+        (SWEEPS, "sweep", BATCH_ON_TWO, swept),
     ):
         cores = kind[2]
-        count = max(1, round(seconds * cores / each / BLOCK)) * BLOCK if what == "shots" else max(8, round(seconds / each))
-        words = [*percuss.command, str(PEERS / "shots.toml"), what, str(count), str(cores)]
+        count = max(1, round(seconds * cores / each / BLOCK)) * BLOCK if what == "sweep" else max(8, round(seconds / each))
+        words = [*percuss.command, str(PEERS / "runs.toml"), what, str(count), str(cores)]
         clock, processor, amount = answer(words, {})
         yield name, kind, Timing(clock, processor, amount, cores)
 

@@ -5,7 +5,7 @@ import statistics
 from pathlib import Path
 
 import measure
-from measure import RUNS, SHOTS, Checked, Timing, Work
+from measure import RUNS, SWEEPS, Checked, Timing, Work
 from prepare import BATCH, BATCH_ON_TWO, ONE_LINEAR, ONE_POWER
 
 COLUMNS = [
@@ -38,7 +38,7 @@ def text(checked: list[Checked], results: Results, skipped: dict[str, str], roun
     for name, difference in off.items():
         rows.append([name, *(cell(results, name, kind) for kind, _ in COLUMNS), f"{difference:.0e}"])
     rows.append([])
-    for name in (RUNS, SHOTS):
+    for name in (RUNS, SWEEPS):
         rows.append([name, *(cell(results, name, kind) for kind, _ in COLUMNS), ""])
     widths = [max(len(row[i]) for row in rows if row) for i in range(len(rows[0]))]
     lines = ["  ".join(word.ljust(width) for word, width in zip(row, widths)).rstrip() for row in rows]

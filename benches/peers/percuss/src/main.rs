@@ -1,7 +1,7 @@
 //! percuss in the benchmark against other programs: see `benches/peers/README.md`.
 //!
-//! `percuss-peers PROBLEM one|batch power|linear THREADS END` advances the chains of a problem and writes where they end; `percuss-peers CASE shots N THREADS` and
-//! `percuss-peers CASE runs N 1` compute shots of a case to rest. All print seconds by the clock and of the processor; shots then print their elements times steps.
+//! `percuss-peers PROBLEM one|batch power|linear THREADS END` advances the chains of a problem and writes where they end; `percuss-peers CASE sweep N THREADS` and
+//! `percuss-peers CASE runs N 1` compute runs of a case to rest. All print seconds by the clock and of the processor; runs then print their elements times steps.
 
 mod kernel;
 mod problem;
@@ -31,11 +31,11 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, f64, f64) {
 
 fn run(words: &[&str]) -> Outcome<()> {
     match *words {
-        [case, what @ ("shots" | "runs"), count, threads] => {
+        [case, what @ ("sweep" | "runs"), count, threads] => {
             let scenarios = runs::scenarios(case, count.parse()?)?;
             let pool = threads_of(threads)?;
             let (work, clock, processor) = timed(|| match what {
-                "shots" => pool.install(|| runs::side_by_side(&scenarios)),
+                "sweep" => pool.install(|| runs::side_by_side(&scenarios)),
                 _ => runs::one_by_one(&scenarios),
             });
             println!("{clock:.9} {processor:.9} {}", work?);

@@ -1,4 +1,4 @@
-//! Shots of a case as percuss itself computes them: large strain, contact, border shear, books, each to its end.
+//! Runs of a case as percuss itself computes them: large strain, contact, border shear and energy balance, each to its end.
 
 use std::{path::Path, sync::atomic::AtomicBool};
 
@@ -11,10 +11,10 @@ use rayon::prelude::*;
 
 use crate::Outcome;
 
-/// Shots that are computed together, as many as in a block of `percuss sweep`.
+/// Runs that are computed together, as many as in a block of `percuss sweep`.
 const BLOCK: usize = 64;
 
-/// Shots of a case at speeds from 150 to 400 m/s.
+/// Runs of a case at speeds from 150 to 400 m/s.
 pub(crate) fn scenarios(case: &str, count: u32) -> Outcome<Vec<Scenario>> {
     let scenario = case::load(Path::new(case))?;
     let speeds = (0..count).map(|i| 150.0 + 250.0 * (f64::from(i) + 0.5) / f64::from(count));
@@ -25,18 +25,18 @@ pub(crate) fn scenarios(case: &str, count: u32) -> Outcome<Vec<Scenario>> {
     Ok(scenarios.collect())
 }
 
-/// Computes shots as `percuss sweep` does, on the threads of the pool: the sum of elements times steps.
+/// Computes runs as `percuss sweep` does, on the threads of the pool: the sum of elements times steps.
 pub(crate) fn side_by_side(scenarios: &[Scenario]) -> Outcome<u64> {
     let kernel = BatchKernel::new(model::model("chain")?);
     let stop = AtomicBool::new(false);
     let blocks = scenarios.par_chunks(BLOCK).map(|block| {
-        let shots = block.iter().enumerate().map(|(i, scenario)| SweepRun {
+        let runs = block.iter().enumerate().map(|(i, scenario)| SweepRun {
             index: i as u64,
             inputs: vec![scenario.impact_velocity],
             scenario: Ok(scenario.clone()),
         });
-        let rows = kernel.rows(shots.collect(), &stop);
-        let rows = rows.map_err(|_| "the shots were stopped".to_owned())?;
+        let rows = kernel.rows(runs.collect(), &stop);
+        let rows = rows.map_err(|_| "the runs were stopped".to_owned())?;
         let steps = rows.into_iter().map(|row| {
             let record = row.record?;
             let reason = record.reason.unwrap_or_default();
@@ -48,7 +48,7 @@ pub(crate) fn side_by_side(scenarios: &[Scenario]) -> Outcome<u64> {
     Ok(steps * elements(scenarios))
 }
 
-/// Computes shots as `percuss run` does: the sum of elements times steps.
+/// Computes runs as `percuss run` does: the sum of elements times steps.
 pub(crate) fn one_by_one(scenarios: &[Scenario]) -> Outcome<u64> {
     let chain = model::model("chain")?;
     let mut steps = 0;
@@ -60,7 +60,7 @@ pub(crate) fn one_by_one(scenarios: &[Scenario]) -> Outcome<u64> {
     Ok(steps * elements(scenarios))
 }
 
-/// Elements of a shot: all shots have as many.
+/// Elements of a run: all runs have as many.
 fn elements(scenarios: &[Scenario]) -> u64 {
     scenarios.first().map_or(0, |scenario| {
         let chain = &scenario.options.chain;
