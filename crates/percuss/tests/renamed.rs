@@ -61,6 +61,14 @@ fn a_former_key_of_a_case_is_named_with_the_new_one() {
 }
 
 #[test]
+fn a_former_key_of_a_calibrated_material_is_named_with_the_new_one() {
+    let material = "[materials.mine]\nname = 'mine'\n[materials.mine.calibrated]\nparameters = []\nfrom = 'copper'\nmodel = 'taylor'\n\
+                    sources = []\nshots = []\npercuss_version = '0.1.0'\nseed = 0\n";
+    let error = input(case::load_str("case.toml", &format!("{CASE}{material}")));
+    assert_says(&error, "case.toml", 10, "shots", "tests");
+}
+
+#[test]
 fn a_former_key_of_a_varied_number_is_named_with_the_new_one() {
     let (former, today) = ("projectile.velocity", "projectile.impact_velocity");
     let normal = "normal = { mean = '230 m/s', standard_deviation = '3 m/s' }\n";

@@ -1,12 +1,18 @@
 //! Former names of keys: a file with one gets an error that names the key of today.
 
-/// Keys of a case and columns of files of tests: the former name and that of today. A `*` is the index of an entry of a list.
-const RENAMED: [(&str, &str); 5] = [
+/// Keys of a case and of a file of materials, and columns of files of tests: the former name and that of today. A `*` is the index of an entry of a
+/// list, or the id of a material.
+const RENAMED: [(&str, &str); 7] = [
     ("projectile.velocity", "projectile.impact_velocity"),
     ("experiments.*.velocity", "experiments.*.impact_velocity"),
     ("chain.target_closure", "chain.target_resistance"),
     ("chain.erosion_closure", "chain.erosion_criterion"),
     ("velocity_m_s", "impact_velocity_m_s"),
+    (
+        "materials.*.calibrated.shots",
+        "materials.*.calibrated.tests",
+    ),
+    ("*.calibrated.shots", "*.calibrated.tests"),
 ];
 
 /// A former key and its name of today.
@@ -53,9 +59,6 @@ impl Renamed {
 
 fn matches(pattern: &str, parts: &[&str]) -> bool {
     let names: Vec<&str> = pattern.split('.').collect();
-    let same = |(name, part): (&&str, &&str)| match *name {
-        "*" => part.parse::<usize>().is_ok(),
-        name => name == *part,
-    };
+    let same = |(name, part): (&&str, &&str)| *name == "*" || name == part;
     names.len() == parts.len() && names.iter().zip(parts).all(same)
 }
