@@ -157,10 +157,11 @@ impl Failure {
     fn text(&self, look: Look) -> String {
         let message = |what: &str, help: &str| diagnostic::message(look, what, help);
         match self {
-            Self::Library(Error::NoModelApplies { reasons }) => {
+            Self::Library(error @ Error::NoModelApplies { reasons, .. }) => {
+                let (what, _) = error.message_and_help();
                 let reasons = reasons.iter();
                 let reasons = by_models(reasons.map(|(name, reason)| (*name, reason.clone())));
-                message("no model applies to this case", "") + &lines(&reasons)
+                message(&what, "") + &lines(&reasons)
             }
             Self::Library(Error::Input(error)) => diagnostic::input_error(look, error),
             Self::Library(error @ Error::Read { path, source, .. }) => {

@@ -23,10 +23,12 @@ pub enum Error {
         refusal: Refusal,
     },
     /// No quick model applies to this case.
-    #[error("no model applies to this case: {}", in_one_line(.reasons))]
+    #[error("{}: {}", no_model_message(.by_name), in_one_line(.reasons))]
     NoModelApplies {
         /// Names of the models, and why each of them does not apply.
         reasons: Vec<(&'static str, String)>,
+        /// Models that apply, and that are run where they are named only.
+        by_name: Vec<&'static str>,
     },
     /// No model has this name.
     #[error("no model is named `{name}`{}; models: {}", did_you_mean(.suggestion), .known.join(", "))]
@@ -105,10 +107,9 @@ impl Error {
                 let remedy = refusal.remedy.as_deref().unwrap_or(WHICH_APPLY);
                 (message, remedy.to_owned())
             }
-            Self::NoModelApplies { reasons } => (
-                "no model applies to this case".to_owned(),
-                in_one_line(reasons),
-            ),
+            Self::NoModelApplies { reasons, by_name } => {
+                (no_model_message(by_name), in_one_line(reasons))
+            }
             Self::UnknownModel {
                 name,
                 suggestion,
@@ -171,6 +172,17 @@ impl From<NumericalError> for Error {
 }
 
 /// A reason per model, in one text.
+/// What is wrong where no quick model applies.
+fn no_model_message(by_name: &[&str]) -> String {
+    match by_name.is_empty() {
+        true => "no model applies to this case".to_owned(),
+        false => format!(
+            "no quick model applies to this case; these apply if named by `--model`: {}",
+            by_name.join(", ")
+        ),
+    }
+}
+
 fn in_one_line(reasons: &[(&'static str, String)]) -> String {
     let lines: Vec<String> = reasons
         .iter()

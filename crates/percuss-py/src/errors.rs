@@ -51,7 +51,7 @@ fn describe(failure: &Failure, attributes: &Bound<'_, PyDict>) -> PyResult<Optio
             attributes.set_item("reason", refusal.to_string())?;
             "NotApplicableError"
         }
-        Failure::Library(Error::NoModelApplies { reasons }) => {
+        Failure::Library(Error::NoModelApplies { reasons, .. }) => {
             let (model, reason) = reasons.first().cloned().unwrap_or_default();
             attributes.set_item("model", model)?;
             attributes.set_item("reason", reason)?;

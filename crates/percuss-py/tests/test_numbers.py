@@ -58,7 +58,7 @@ def test_a_run_without_a_model_takes_the_one_of_the_program(program: Program, tm
     assert ran.model_choice is not None and "instead of the default `chain`" in ran.model_choice
     with pytest.raises(percuss.NotApplicableError, match="it takes flat noses"):
         percuss.run(sharp, "chain")
-    with pytest.raises(percuss.NotApplicableError, match="no model applies"):
+    with pytest.raises(percuss.NotApplicableError, match="no quick model applies"):
         percuss.run(sharp.replace({"target": {"rigid_wall": True}}))
 
 

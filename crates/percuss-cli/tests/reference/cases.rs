@@ -110,7 +110,7 @@ pub fn page() -> String {
         .collect();
     let head = "| ".repeat(COLUMNS) + "|\n" + &"|---".repeat(COLUMNS) + "|\n";
     format!(
-        "# Cases\n\nEach folder has the case, its expected numbers, which a test compares, and a page. `percuss run cases/NAME/scenario.toml` computes one.\n\n\
+        "# Cases\n\nEach folder has the case, its expected numbers, which a test compares, and a page. `percuss run cases/NAME/scenario.toml` computes one; those of `particles` need `--model particles`.\n\n\
          {head}{rows}"
     )
 }

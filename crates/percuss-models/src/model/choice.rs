@@ -1,6 +1,6 @@
 //! Default model of a run: the chain where it applies, otherwise the model that a comparison recommends.
 
-use super::{Control, Model, applicability_in, fast_models, model, recommend, run_in};
+use super::{Control, MODELS, Model, applicability_in, fast_models, model, recommend, run_in};
 use crate::{Error, Scenario, outcome::RunResult, regime::Regime};
 
 /// Name of the model of a run that names none.
@@ -112,6 +112,12 @@ pub fn default_model(scenario: &Scenario) -> Result<ChosenModel, Error> {
                 .zip(results)
                 .filter_map(|(model, result)| Some((model.name(), result.err()?)))
                 .collect(),
+            by_name: MODELS
+                .iter()
+                .filter(|model| models.iter().all(|fast| fast.name() != model.name()))
+                .filter(|model| applicability_in(**model, scenario, &regime).is_ok())
+                .map(|model| model.name())
+                .collect(),
         }),
     }
 }
@@ -208,10 +214,11 @@ mod tests {
     #[test]
     fn where_no_model_applies_every_reason_is_given() {
         let error = default_model(&scenario(OGIVE, "rigid_wall = true")).unwrap_err();
-        let Error::NoModelApplies { reasons } = &error else {
+        let Error::NoModelApplies { reasons, by_name } = &error else {
             panic!("{error}");
         };
         assert_eq!(reasons.len(), fast_models().len());
+        assert_eq!(by_name, &["axi"]);
         assert!(
             error.to_string().contains("chain: it takes flat noses"),
             "{error}"
