@@ -41,7 +41,7 @@ pub fn seeds() -> Vec<String> {
     let case = crate::support::CASE
         .replace('"', "\\\"")
         .replace('\n', "\\n");
-    let asked = |more: &str| format!("{{\"name\":\"shot\",\"case\":\"{case}\"{more}}}");
+    let asked = |more: &str| format!("{{\"name\":\"rod\",\"case\":\"{case}\"{more}}}");
     let get = |path: &str| {
         format!(
             "GET {path} HTTP/1.1\nHost: localhost\nConnection: close\nAccept: */*\nCookie: percuss_token=a\n\n"
