@@ -86,6 +86,11 @@ impl Plate {
         near(self.density, other.density) && near(self.youngs_modulus, other.youngs_modulus)
     }
 
+    /// Whether the other one is of such a metal and struck by such a nose: errors on others say nothing.
+    fn is_like(&self, other: &Self) -> bool {
+        other.is_flat == self.is_flat && self.is_of_metal(other)
+    }
+
     fn nose(&self) -> &'static str {
         match self.is_flat {
             true => "flat",
@@ -103,40 +108,57 @@ struct LimitError {
     error: f64,
 }
 
-/// A model with its errors, once they are asked for.
-type ErrorsOf = (&'static dyn Model, OnceLock<Vec<LimitError>>);
+/// Published limits that a case can be made of: the number of the test and its plate.
+static PUBLISHED: LazyLock<Vec<(usize, Plate)>> = LazyLock::new(|| {
+    let tests = experiments::built_in().iter().enumerate();
+    let limits = tests.filter(|(_, test)| test.kind == Kind::BallisticLimit);
+    limits
+        .filter_map(|(index, test)| {
+            let scenario = validate::main_scenario(test, Library::built_in()).ok()?;
+            Some((index, Plate::of(&scenario)?))
+        })
+        .collect()
+});
 
-/// The fast models that predict limits, each with its errors on every published limit that counts, once they are asked for.
+/// A model with its errors on [`PUBLISHED`], each once it is asked for; `None` where it does not count.
+type ErrorsOf = (&'static dyn Model, Vec<OnceLock<Option<LimitError>>>);
+
+/// The fast models that predict limits.
 static ERRORS: LazyLock<Vec<ErrorsOf>> = LazyLock::new(|| {
     let models = fast_models().into_iter().filter(|model| {
         let predicts = model.validity().predicts;
         predicts.contains(&BandQuantity::BallisticLimit)
     });
-    models.map(|model| (model, OnceLock::new())).collect()
+    let none_yet = || PUBLISHED.iter().map(|_| OnceLock::new()).collect();
+    models.map(|model| (model, none_yet())).collect()
 });
 
-/// Errors of a fast model on every published limit that counts; none of another model.
-fn errors_of(model: &str) -> &'static [LimitError] {
-    let entry = ERRORS.iter().find(|(of, _)| of.name() == model);
-    entry.map_or(&[], |(model, errors)| {
-        errors.get_or_init(|| published_errors(*model))
-    })
+/// Errors of a fast model on the published limits that count and whose plates are wanted; none of another model. The runs of other plates
+/// are not made.
+fn errors_of(model: &str, is_wanted: impl Fn(&Plate) -> bool) -> Vec<&'static LimitError> {
+    let Some((model, errors)) = ERRORS.iter().find(|(of, _)| of.name() == model) else {
+        return Vec::new();
+    };
+    let published = PUBLISHED.iter().zip(errors);
+    let wanted = published.filter(|((_, plate), _)| is_wanted(plate));
+    let computed = wanted.map(|((test, plate), error)| {
+        error
+            .get_or_init(|| published_error(*model, *test, plate))
+            .as_ref()
+    });
+    computed.flatten().collect()
 }
 
-fn published_errors(model: &'static dyn Model) -> Vec<LimitError> {
-    let limits = experiments::built_in().iter().enumerate();
-    let limits = limits.filter(|(_, test)| test.kind == Kind::BallisticLimit);
-    validate::with_main_records(&[model], limits, Library::built_in())
-        .filter(|(prediction, _)| prediction.standing == Standing::Counted)
-        .filter_map(|(prediction, scenario)| {
-            Some(LimitError {
-                source: experiments::built_in()[prediction.test].source.clone(),
-                is_blind: prediction.split == Split::Blind,
-                plate: Plate::of(&scenario)?,
-                error: prediction.relative_error?,
-            })
-        })
-        .collect()
+fn published_error(model: &'static dyn Model, index: usize, plate: &Plate) -> Option<LimitError> {
+    let test = &experiments::built_in()[index];
+    let prediction = validate::with_main_record(model, index, test, Library::built_in());
+    let counted = prediction.standing == Standing::Counted;
+    Some(LimitError {
+        source: test.source.clone(),
+        is_blind: prediction.split == Split::Blind,
+        plate: plate.clone(),
+        error: prediction.relative_error.filter(|_| counted)?,
+    })
 }
 
 /// Expected error of the limit that a model finds for a case; `None` where fewer than five published limits are of its kind.
@@ -155,10 +177,8 @@ pub(super) fn expected_error(
         let mut cited = scenario.experiments.iter().flat_map(|e| &e.sources);
         cited.any(|cited| cited == source)
     };
-    let errors: Vec<&LimitError> = errors_of(model.name())
-        .iter()
-        .filter(|error| !is_own(&error.source))
-        .collect();
+    let mut errors = errors_of(model.name(), |other| plate.is_like(other));
+    errors.retain(|error| !is_own(&error.source));
     expected_among(&errors, &plate)
 }
 
@@ -167,7 +187,7 @@ type Level<'a> = (Box<dyn Fn(&Plate) -> bool + 'a>, String);
 
 /// The expected error from the narrowest kind that has enough errors.
 fn expected_among(errors: &[&LimitError], plate: &Plate) -> Option<ExpectedLimitError> {
-    let metal = move |other: &Plate| other.is_flat == plate.is_flat && plate.is_of_metal(other);
+    let metal = move |other: &Plate| plate.is_like(other);
     let thickness = move |other: &Plate| metal(other) && other.target == plate.target;
     let regime = move |other: &Plate| thickness(other) && other.projectile == plate.projectile;
     let (shape, kind) = (plate.nose(), plate.target.describe());
@@ -269,7 +289,8 @@ mod tests {
                 .filter(counted)
                 .filter_map(|p| p.relative_error)
                 .collect();
-            let found: Vec<f64> = errors_of(name).iter().map(|error| error.error).collect();
+            let found = errors_of(name, |_| true);
+            let found: Vec<f64> = found.iter().map(|error| error.error).collect();
             assert!(found.len() > 30, "{name}: {}", found.len());
             assert_eq!(found, expected, "{name}");
         }

@@ -152,30 +152,24 @@ pub fn run(
     })
 }
 
-/// Predictions of models for published tests with their main material records, and the cases that they are of, computed on this
-/// thread. A test that no case can be made of is left out.
-pub(crate) fn with_main_records<'a>(
-    models: &'a [&'static dyn Model],
-    tests: impl IntoIterator<Item = (usize, &'a Experiment)>,
-    library: &'a Library,
-) -> impl Iterator<Item = (Prediction, Scenario)> {
-    let of_test = move |(index, test): (usize, &'a Experiment)| {
-        let scenario = scenario(test, 0, library);
-        let case = Computed {
-            test,
-            index,
-            record: 0,
-            scenario: &scenario,
-            regime: "",
-        };
-        let go_on = AtomicBool::new(false);
-        let predictions = models.iter().map(|model| case.predict(*model, &go_on));
-        let predictions: Vec<Prediction> = predictions.collect();
-        let made = scenario.into_iter();
-        made.flat_map(move |scenario| {
-            let predictions = predictions.clone().into_iter();
-            predictions.map(move |prediction| (prediction, scenario.clone()))
-        })
+/// A test as a case, with its main material record.
+pub(crate) fn main_scenario(test: &Experiment, library: &Library) -> Result<Scenario, String> {
+    scenario(test, 0, library)
+}
+
+/// Prediction of a model for a test, by its index, with its main material record.
+pub(crate) fn with_main_record(
+    model: &dyn Model,
+    index: usize,
+    test: &Experiment,
+    library: &Library,
+) -> Prediction {
+    let case = Computed {
+        test,
+        index,
+        record: 0,
+        scenario: &main_scenario(test, library),
+        regime: "",
     };
-    tests.into_iter().flat_map(of_test)
+    case.predict(model, &AtomicBool::new(false))
 }
