@@ -256,6 +256,12 @@ pub fn settled<T>(numbers: T) -> T {
     std::hint::black_box(numbers)
 }
 
+/// 1 in the lanes in which something is so, 0 in the others.
+#[inline(always)]
+pub fn flags(is_so: impl Fn(usize) -> bool) -> Lanes {
+    settled(lanes(|l| if is_so(l) { 1.0 } else { 0.0 }))
+}
+
 /// Whether a number is not 0 in any lane, of numbers of which none is −0.
 #[inline(always)]
 pub fn any<R: Real>(numbers: &R) -> bool {

@@ -45,7 +45,7 @@ pub use strength::strength_factor;
 pub use strength::*;
 pub use tensile::tensile_strength;
 pub use unmodelled::reason_not_modelled;
-pub use yield_point::{LaneTrial, Trial, YieldPoint};
+pub use yield_point::{Called, LaneTrial, Trial, YieldPoint};
 
 /// One parameter set of a material, as a file holds it.
 ///

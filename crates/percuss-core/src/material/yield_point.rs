@@ -109,8 +109,8 @@ impl<R: Real> Default for YieldPoint<R> {
 }
 
 /// A law of the caller's own, which is called.
-#[derive(Clone, Copy)]
-struct Called<'a>(&'a dyn PreparedStrength);
+#[derive(Debug, Clone, Copy)]
+pub struct Called<'a>(pub &'a dyn PreparedStrength);
 
 impl LaneStrength for Called<'_> {
     fn thermal(&self, _: f64) -> f64 {

@@ -8,11 +8,12 @@
 use super::{
     band_law::Failure,
     dishing_mesh::{Circle, rings, widths},
+    plate_flow::FlowingRings,
     plate_section::{PlateSection, Ring},
 };
 use crate::{
-    Error, material::Material, options::ChainOptions, problem::EdgeSupport, scenario::PlateEdge,
-    solver::archive::Archive,
+    Error, lanes::LANES, material::Material, options::ChainOptions, problem::EdgeSupport,
+    scenario::PlateEdge, solver::archive::Archive,
 };
 
 /// A plug and the plate around it.
@@ -21,6 +22,9 @@ pub(super) struct Dishing {
     section: PlateSection,
     circles: Vec<Circle>,
     rings: Vec<Ring>,
+    /// Numbers of the rings that move in a step, and of those that flow.
+    moved: Vec<usize>,
+    flowing: Vec<usize>,
     /// Circles of the plug, the first of `circles`; none where it is a boss that does not deform.
     plug: usize,
     support: EdgeSupport,
@@ -83,6 +87,8 @@ impl Dishing {
             section,
             circles,
             rings,
+            moved: Vec::new(),
+            flowing: Vec::new(),
             plug: 0,
             support: edge.support,
             edge_held: true,
@@ -193,12 +199,37 @@ impl Dishing {
         self.largest_deflection = self.largest_deflection.max(edge);
         let between = self.circles.windows(2).enumerate();
         let pairs = between.filter(|(i, _)| i + 1 != self.plug);
-        for (ring, (_, pair)) in self.rings.iter_mut().zip(pairs) {
+        self.moved.clear();
+        self.flowing.clear();
+        for (i, (ring, (_, pair))) in self.rings.iter_mut().zip(pairs).enumerate() {
             let bent = pair.iter().any(|c| c.velocity != 0.0 || c.spin != 0.0);
             if bent || !ring.is_settled() {
                 let deflections = [pair[0].deflection, pair[1].deflection];
                 let rotations = [pair[0].rotation, pair[1].rotation];
-                self.plastic_work += ring.deform(&self.section, deflections, rotations, time_step);
+                self.moved.push(i);
+                if ring.deform(&self.section, deflections, rotations) {
+                    self.flowing.push(i);
+                }
+            }
+        }
+        self.flow(time_step);
+        for i in &self.moved {
+            self.plastic_work += self.rings[*i].plastic_work();
+        }
+    }
+
+    /// Returns what is beyond the yield surface, eight rings at a time.
+    fn flow(&mut self, time_step: f64) {
+        for some in self.flowing.chunks(LANES) {
+            let mut rings = FlowingRings::default();
+            for lane in 0..LANES {
+                // Lanes that are left over have numbers of a ring, too.
+                self.rings[*some.get(lane).unwrap_or(&some[0])].join(&mut rings, lane);
+                rings.present[lane] = f64::from(u8::from(lane < some.len()));
+            }
+            rings.find_multipliers(&self.section, time_step);
+            for (lane, i) in some.iter().enumerate() {
+                self.rings[*i].flow(&self.section, rings.multiplier[lane], time_step);
             }
         }
     }

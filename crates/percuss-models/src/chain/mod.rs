@@ -46,6 +46,7 @@ mod mesh;
 mod pair;
 mod part;
 mod penetration;
+mod plate_flow;
 mod plate_section;
 mod plug;
 mod published;

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use std::f64::consts::PI;
 
-use super::band_law::Failure;
+use super::{band_law::Failure, plate_flow::FlowingRings};
 use crate::{
     material::{FlowState, Material, PreparedStrength},
     options::ChainOptions,
@@ -12,14 +12,8 @@ use crate::{
 
 /// Part of the transverse shear stiffness that a rectangular section has \[mindlin1951\].
 const SHEAR_CORRECTION: f64 = 5.0 / 6.0;
-/// Part of the moment to which the yield surface is met.
-const TOLERANCE: f64 = 1e-10;
-/// The same, from which a step of Newton's method meets it: its error falls with the square.
-const LAST_EXCESS: f64 = 1e-6;
 /// Multiplier from which the first flow is sought.
 const FIRST_MULTIPLIER: f64 = 1e-3;
-/// Steps of Newton's method that is kept in its bracket; far more than it needs.
-const MOST_ITERATIONS: u32 = 100;
 
 /// What is the same for all rings of a plate.
 #[derive(Debug)]
@@ -33,10 +27,10 @@ pub(super) struct PlateSection {
     shear: f64,
     /// How fast normal flow reduces the sum and the difference of the moments and the shear force.
     decay: [f64; 3],
-    strength: Box<dyn PreparedStrength>,
+    pub(super) strength: Box<dyn PreparedStrength>,
     /// Temperature rise per plastic work per volume [K m3/J].
     heating: f64,
-    rate_effects: bool,
+    pub(super) rate_effects: bool,
     start_temperature: f64,
     failure: Failure,
 }
@@ -89,37 +83,53 @@ impl PlateSection {
     }
 
     /// Fully plastic moment over the flow stress.
-    fn modulus(&self) -> f64 {
+    #[inline(always)]
+    pub(super) fn modulus(&self) -> f64 {
         0.25 * self.thickness * self.thickness
     }
 
     /// Moment that uses up as much of a section as moments and shear force do together: `√(M_r² − M_r M_θ + M_θ² + 3 (Q h/4)²)`.
-    fn equivalent(&self, loads: [f64; 3]) -> f64 {
+    #[inline(always)]
+    pub(super) fn equivalent(&self, loads: [f64; 3]) -> f64 {
         self.equivalent_squared(loads).sqrt()
     }
 
-    #[inline]
+    #[inline(always)]
     fn equivalent_squared(&self, [sum, difference, shear]: [f64; 3]) -> f64 {
         let of_shear = 0.5 * self.thickness * shear;
         0.25 * (sum * sum + 3.0 * (difference * difference + of_shear * of_shear))
     }
 
     /// Trial moments and shear force after normal flow with a multiplier.
-    fn returned(&self, trial: [f64; 3], multiplier: f64) -> [f64; 3] {
-        let decay = self.decay;
-        std::array::from_fn(|i| trial[i] / (1.0 + multiplier * decay[i]))
+    #[inline(always)]
+    pub(super) fn returned(&self, trial: [f64; 3], multiplier: f64) -> [f64; 3] {
+        let [sum, difference, shear] = self.decay;
+        [
+            trial[0] / (1.0 + multiplier * sum),
+            trial[1] / (1.0 + multiplier * difference),
+            trial[2] / (1.0 + multiplier * shear),
+        ]
     }
 
     /// Slope of the equivalent moment with the multiplier, after the return with it.
-    fn slope_of_equivalent(&self, returned: [f64; 3], multiplier: f64, moment: f64) -> f64 {
-        let decay = self.decay;
-        let of = |i: usize| -returned[i] * returned[i] * decay[i] / (1.0 + multiplier * decay[i]);
-        let of_shear = 0.25 * self.thickness * self.thickness * of(2);
-        0.25 * (of(0) + 3.0 * (of(1) + of_shear)) / moment
+    #[inline(always)]
+    pub(super) fn slope_of_equivalent(
+        &self,
+        returned: [f64; 3],
+        multiplier: f64,
+        moment: f64,
+    ) -> f64 {
+        let [first, second, third] = self.decay;
+        let of_sum = -returned[0] * returned[0] * first / (1.0 + multiplier * first);
+        let of_difference = -returned[1] * returned[1] * second / (1.0 + multiplier * second);
+        let of_force = -returned[2] * returned[2] * third / (1.0 + multiplier * third);
+        let of_shear = 0.25 * self.thickness * self.thickness * of_force;
+        0.25 * (of_sum + 3.0 * (of_difference + of_shear)) / moment
     }
 
     /// Mean plastic strain of normal flow: work per area is σ h Δε with σ = 4M/h², so that a curvature Δκ has the strain h Δκ/4.
-    fn strain(&self, multiplier: f64, moment: f64) -> f64 {
+    #[inline(always)]
+    pub(super) fn strain(&self, multiplier: f64, moment: f64) -> f64 {
         0.5 * self.thickness * multiplier * moment / self.bending
     }
 
@@ -147,9 +157,10 @@ pub(super) struct Ring {
     sum_before: f64,
     difference_before: f64,
     shear_before: f64,
-    /// Plastic curvatures, sum and difference, and slope, and those of the last step.
+    /// Plastic curvatures, sum and difference, and slope, and those of the last step and of the one before.
     plastic: [f64; 3],
     plastic_step: [f64; 3],
+    plastic_before: [f64; 3],
     /// Mean equivalent plastic strain of the section and its temperature, at rest.
     state: FlowState,
     damage: f64,
@@ -174,6 +185,7 @@ impl Ring {
             shear_before: 0.0,
             plastic: [0.0; 3],
             plastic_step: [0.0; 3],
+            plastic_before: [0.0; 3],
             state: FlowState {
                 plastic_strain: 0.0,
                 strain_rate: 0.0,
@@ -224,16 +236,15 @@ impl Ring {
             && self.shear == self.shear_before
     }
 
-    /// Brings the ring to new deflections and rotations of its circles and returns the plastic work between the half steps around
-    /// the current time [J].
+    /// Brings the ring to new deflections and rotations of its circles, to moments and a shear force as if nothing flowed; whether these are
+    /// beyond the yield surface.
     #[inline]
     pub(super) fn deform(
         &mut self,
         section: &PlateSection,
         deflections: [f64; 2],
         rotations: [f64; 2],
-        time_step: f64,
-    ) -> f64 {
+    ) -> bool {
         let radial = (rotations[1] - rotations[0]) / self.width;
         let hoop = 0.5 * (rotations[0] + rotations[1]) / self.radius;
         let slope = (deflections[1] - deflections[0]) / self.width;
@@ -246,12 +257,16 @@ impl Ring {
         let nu = section.poissons_ratio;
         self.sum = stiffness * (1.0 + nu) * (radial + hoop - self.plastic[0]);
         self.difference = stiffness * (1.0 - nu) * (radial - hoop - self.plastic[1]);
-        let before = self.plastic_step;
+        self.plastic_before = self.plastic_step;
         self.plastic_step = [0.0; 3];
-        if !self.is_elastic(section) {
-            self.flow(section, time_step);
-        }
-        let steps: [f64; 3] = std::array::from_fn(|i| before[i] + self.plastic_step[i]);
+        !self.is_elastic(section)
+    }
+
+    /// Plastic work between the half steps around the current time [J].
+    #[inline]
+    pub(super) fn plastic_work(&self) -> f64 {
+        let steps: [f64; 3] =
+            std::array::from_fn(|i| self.plastic_before[i] + self.plastic_step[i]);
         // M_r κ_r + M_θ κ_θ is half of what sums and differences give; half of the two steps belongs to this time.
         let bending = self.sum_before * steps[0] + self.difference_before * steps[1];
         (0.25 * bending + 0.5 * self.shear_before * steps[2]) * self.area()
@@ -271,11 +286,20 @@ impl Ring {
             )
     }
 
-    /// Returns trial moments and shear force to the yield surface.
-    #[inline(never)]
-    fn flow(&mut self, section: &PlateSection, time_step: f64) {
+    /// Takes a lane of rings that flow.
+    pub(super) fn join(&self, rings: &mut FlowingRings, lane: usize) {
         let trial = [self.sum, self.difference, self.shear];
-        let multiplier = self.multiplier(section, trial, time_step);
+        for (lanes, trial) in rings.trial.iter_mut().zip(trial) {
+            lanes[lane] = trial;
+        }
+        rings.multiplier[lane] = self.last_multiplier;
+        rings.plastic_strain[lane] = self.state.plastic_strain;
+        rings.temperature[lane] = self.state.temperature;
+    }
+
+    /// Returns trial moments and shear force to the yield surface by a multiplier of normal flow.
+    pub(super) fn flow(&mut self, section: &PlateSection, multiplier: f64, time_step: f64) {
+        let trial = [self.sum, self.difference, self.shear];
         self.last_multiplier = multiplier;
         let returned = section.returned(trial, multiplier);
         let increment = section.strain(multiplier, section.equivalent(returned));
@@ -293,65 +317,6 @@ impl Ring {
         self.reached = section.equivalent(returned) / section.modulus();
         self.state.temperature += section.heating * self.reached * increment;
         self.slow = None;
-    }
-
-    /// Multiplier of normal flow at which the moment meets the flow stress: Newton's method from the last one, kept in a bracket.
-    fn multiplier(&self, section: &PlateSection, trial: [f64; 3], time_step: f64) -> f64 {
-        let scale = section.equivalent(trial);
-        let (mut low, mut high) = (0.0_f64, f64::INFINITY);
-        let mut multiplier = self.last_multiplier;
-        for _ in 0..MOST_ITERATIONS {
-            let (value, slope) = self.excess(section, trial, multiplier, time_step);
-            if value.abs() <= TOLERANCE * scale {
-                break;
-            }
-            if value > 0.0 {
-                low = multiplier;
-            } else {
-                high = multiplier;
-            }
-            let next = multiplier - value / slope;
-            if value.abs() <= LAST_EXCESS * scale && next > low && next < high {
-                return next;
-            }
-            multiplier = if next > low && next < high {
-                next
-            } else if high.is_finite() {
-                0.5 * (low + high)
-            } else {
-                2.0 * multiplier
-            };
-        }
-        multiplier
-    }
-
-    /// Moment beyond the yield surface after normal flow with a multiplier, and its slope.
-    fn excess(
-        &self,
-        section: &PlateSection,
-        trial: [f64; 3],
-        multiplier: f64,
-        time_step: f64,
-    ) -> (f64, f64) {
-        let returned = section.returned(trial, multiplier);
-        let moment = section.equivalent(returned);
-        let moment_slope = section.slope_of_equivalent(returned, multiplier, moment);
-        let increment = section.strain(multiplier, moment);
-        let per_time = match section.rate_effects {
-            true => 1.0 / time_step,
-            false => 0.0,
-        };
-        let flow = section.strength.flow_stress(&FlowState {
-            plastic_strain: self.state.plastic_strain + increment,
-            strain_rate: increment * per_time,
-            ..self.state
-        });
-        let strain_slope = section.strain(1.0, moment + multiplier * moment_slope);
-        let hardening = (flow.strain_slope + flow.rate_slope * per_time) * strain_slope;
-        (
-            moment - section.modulus() * flow.stress,
-            moment_slope - section.modulus() * hardening,
-        )
     }
 
     /// Elastic energy between two steps [J]: the form that central differences conserve.

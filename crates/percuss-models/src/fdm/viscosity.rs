@@ -27,5 +27,8 @@ pub(super) fn stable_step(
     approach: f64,
 ) -> f64 {
     let drag = viscosity.linear * sound_speed + viscosity.quadratic * approach.max(0.0);
+    if drag == 0.0 {
+        return length / sound_speed;
+    }
     length / (sound_speed.hypot(drag) + drag)
 }

@@ -195,7 +195,8 @@ mod tests {
                     from: 0.0,
                     to: 1600.0,
                 };
-                let residual = |v: f64| jump + 0.8 * (v.powf(p) - f64::powf(limit, p)).powf(1.0 / p);
+                let residual =
+                    |v: f64| jump + 0.8 * (v.powf(p) - f64::powf(limit, p)).powf(1.0 / p);
                 let shoot = |velocity: f64| {
                     Ok(Sample {
                         velocity,

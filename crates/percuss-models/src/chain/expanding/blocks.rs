@@ -182,12 +182,6 @@ pub(super) fn first_lanes(count: usize) -> &'static Lanes {
     settled(&TABLE[count.min(LANES)])
 }
 
-/// 1 in the lanes in which something is so, 0 in the others.
-#[inline(always)]
-pub(super) fn flags(is_so: impl Fn(usize) -> bool) -> Lanes {
-    settled(lanes(|l| if is_so(l) { 1.0 } else { 0.0 }))
-}
-
 /// Sum over the lanes, as a tree of fixed shape.
 #[inline(always)]
 pub(super) fn sum(numbers: &Lanes) -> f64 {

@@ -40,9 +40,8 @@ pub(super) struct RearFace {
     /// Displacement of the mouth by reflected waves [m], and its velocity in the current step [m/s].
     pub(super) displacement: f64,
     pub(super) velocity: f64,
-    /// Impulse on a fixed rear face [N s] and the force in the last step [N].
-    pub(super) support_impulse: f64,
-    pub(super) support_force: f64,
+    /// Start and end of the last step [s].
+    step: [f64; 2],
 }
 
 impl RearFace {
@@ -52,8 +51,7 @@ impl RearFace {
         archive.item(&mut self.impulse)?;
         archive.item(&mut self.displacement)?;
         archive.item(&mut self.velocity)?;
-        archive.item(&mut self.support_impulse)?;
-        archive.item(&mut self.support_force)
+        archive.item(&mut self.step)
     }
 
     /// Of a plate of a thickness [m]; `speeds` are those of waves in the cone and of plane longitudinal waves [m/s]. `None` for a
@@ -86,8 +84,7 @@ impl RearFace {
             impulse,
             displacement: 0.0,
             velocity: 0.0,
-            support_impulse: 0.0,
-            support_force: 0.0,
+            step: [0.0; 2],
         })
     }
 
@@ -112,10 +109,27 @@ impl RearFace {
         self.displacement += self.velocity * time_step;
         self.outgoing.push(time, outgoing);
         self.impulse.push(time, impulse);
-        if self.is_fixed() {
-            let support = self.reflections(&self.impulse, time);
-            self.support_force = (support - self.support_impulse) / time_step;
-            self.support_impulse = support;
+        self.step = [self.step[1], time];
+    }
+
+    /// Impulse on a fixed rear face [N s].
+    pub(super) fn support_impulse(&self) -> f64 {
+        self.support_impulse_at(self.step[1])
+    }
+
+    /// Force on a fixed rear face in the last step [N].
+    pub(super) fn support_force(&self) -> f64 {
+        let [start, end] = self.step;
+        if end <= start {
+            return 0.0;
+        }
+        (self.support_impulse_at(end) - self.support_impulse_at(start)) / (end - start)
+    }
+
+    fn support_impulse_at(&self, time: f64) -> f64 {
+        match self.is_fixed() {
+            true => self.reflections(&self.impulse, time),
+            false => 0.0,
         }
     }
 

@@ -5,11 +5,11 @@
 
 use super::{
     block::{Ends, Inverse, add},
-    blocks::{Blocks, ahead, first_lanes, flags},
+    blocks::{Blocks, ahead, first_lanes},
     slice::{Metal, Neighbours, Shear, Slice, Undeformed, axial_stress},
 };
 use crate::{
-    lanes::{LANES, Lanes, PerLane, any, lanes, settled, smaller},
+    lanes::{LANES, Lanes, PerLane, any, flags, lanes, settled, smaller},
     material::{LaneStrength, LaneTrial, LawVisitor, plastic_increments},
     power::log_ratio,
 };

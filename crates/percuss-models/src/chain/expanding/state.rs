@@ -254,7 +254,7 @@ impl State {
     /// Force on what holds the rear face [N].
     pub(super) fn support_force(&self) -> f64 {
         match &self.rear_face {
-            Some(face) => face.support_force,
+            Some(face) => face.support_force(),
             None => self.far_field.passing_force,
         }
     }
@@ -284,7 +284,7 @@ impl State {
         // Waves that left through the last node are in the plate still, except for what its support has taken.
         let passed = self.far_field.passed_impulse;
         let support = match &self.rear_face {
-            Some(face) => face.support_impulse,
+            Some(face) => face.support_impulse(),
             None => passed,
         };
         let mut momentum = MomentumLedger::default();

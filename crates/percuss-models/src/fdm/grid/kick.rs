@@ -7,11 +7,14 @@ use super::{BoundaryCondition, Grid, Law, Node};
 /// Friction opposes the velocity after the kick and holds the node still when it can. Where the velocity turns within the
 /// step it could push on average: it may not, and the node is left to the force alone.
 fn kick(node: &mut Node, time_step: f64) {
-    (node.velocity, node.lost_impulse) = dry_friction(
-        node.velocity,
-        node.force * time_step / node.mass,
-        node.friction * time_step / node.mass,
-    );
+    let change = node.force * time_step / node.mass;
+    if node.friction == 0.0 {
+        node.velocity += change;
+        node.lost_impulse = 0.0;
+        return;
+    }
+    let limit = node.friction * time_step / node.mass;
+    (node.velocity, node.lost_impulse) = dry_friction(node.velocity, change, limit);
     node.lost_impulse *= node.mass;
 }
 
