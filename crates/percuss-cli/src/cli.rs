@@ -5,7 +5,7 @@ use std::{ffi::OsString, sync::atomic::AtomicBool};
 use clap::{
     CommandFactory, Parser, Subcommand,
     builder::StyledStr,
-    error::{ContextKind, ContextValue},
+    error::{ContextKind, ContextValue, ErrorKind},
 };
 
 use crate::{
@@ -85,8 +85,12 @@ impl Cli {
     /// # Errors
     /// Those of the parser.
     pub fn parse_line(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
+        let words: Vec<OsString> = words.into_iter().collect();
+        let command = words.get(1).and_then(|word| word.to_str());
+        let command = command.unwrap_or_default().to_owned();
         Self::try_parse_from(words).map_err(|mut error| {
             let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else {
+                advise(&mut error, &command);
                 return error;
             };
             if let Some((former, name)) = RENAMED.into_iter().find(|(former, _)| former == word) {
@@ -97,6 +101,43 @@ impl Cli {
             error
         })
     }
+}
+
+/// Puts what a user may have meant in place of the parser's tip on an argument that a command does not take.
+fn advise(error: &mut clap::Error, command: &str) {
+    let argument = match error.get(ContextKind::InvalidArg) {
+        Some(ContextValue::String(argument)) => argument.clone(),
+        Some(ContextValue::Strings(missing)) => missing.join(" "),
+        _ => return,
+    };
+    let is_unknown = error.kind() == ErrorKind::UnknownArgument;
+    let is_csv = argument.to_lowercase().ends_with(".csv");
+    let tip = match (command, argument.as_str()) {
+        ("run", "--velocity") if is_unknown => {
+            "the case has the impact velocity; 'percuss compare CASE.toml --velocity 200..1500:14' computes several"
+        }
+        ("validate", _) if is_unknown && is_csv => "'--data FILE.csv' takes a file of tests",
+        ("limit", missing) if !is_unknown && missing.contains("CASE.toml") => {
+            "'--tests FILE.csv' needs no case"
+        }
+        // No argument of this program is a value that starts with dashes.
+        _ if is_unknown && is_escape(error) => {
+            error.remove(ContextKind::Suggested);
+            return;
+        }
+        _ => return,
+    };
+    let tip = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
+    error.insert(ContextKind::Suggested, tip);
+}
+
+/// Whether the parser's tip is to write dashes before the argument.
+fn is_escape(error: &clap::Error) -> bool {
+    let Some(ContextValue::StyledStrs(tips)) = error.get(ContextKind::Suggested) else {
+        return false;
+    };
+    tips.iter()
+        .any(|tip| tip.to_string().contains("as a value"))
 }
 
 /// All commands. Adding one is one file in `commands/` and one line in each of the lists here.

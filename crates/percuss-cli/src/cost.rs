@@ -25,11 +25,18 @@ fn note(estimate: Estimate) -> Option<String> {
         seconds,
     } = estimate;
     (seconds >= NOTABLE).then(|| {
-        format!(
-            "estimated cost: {} of processor time, {steps:.1e} time steps, {} of memory",
-            time_in_words(seconds),
-            size(memory as u64),
-        )
+        let mut words = format!(
+            "estimated cost: {} of processor time",
+            time_in_words(seconds)
+        );
+        // A formula has neither.
+        if steps >= 1.0 {
+            words += &format!(", {steps:.1e} time steps");
+        }
+        if memory >= 1.0 {
+            words += &format!(", {} of memory", size(memory as u64));
+        }
+        words
     })
 }
 
@@ -51,5 +58,12 @@ mod tests {
             words,
             "estimated cost: 6 h of processor time, 1.2e6 time steps, 2.8 GiB of memory"
         );
+        let of_a_formula = Estimate {
+            memory: 0.0,
+            steps: 0.0,
+            seconds: 35.0,
+        };
+        let words = note(of_a_formula).unwrap();
+        assert_eq!(words, "estimated cost: 35 s of processor time");
     }
 }

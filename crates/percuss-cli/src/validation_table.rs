@@ -19,7 +19,7 @@ const SPACES: u16 = 2;
 pub fn text(validation: &Validation, files: &[String], in_detail: bool) -> String {
     let mut text = format!(
         "{}\n{}\n",
-        bold("Validation against published tests"),
+        bold("Validation against tests"),
         wrap(&format!("data: {}", files.join(", ")), width(), 2)
     );
     let repeated = validation

@@ -133,7 +133,7 @@ fn json_has_an_entry_a_model_with_stable_names() {
         forrestal["reason"]
             .as_str()
             .unwrap()
-            .contains("does not say")
+            .contains("does not predict")
     );
     assert_eq!(forrestal["ballistic_limit_m_s"], Value::Null);
     assert_eq!(object["experiments"].as_array().unwrap().len(), 2);
@@ -154,7 +154,7 @@ fn a_range_that_is_stopped_or_perforated_throughout_is_an_answer() {
         &["shot.toml", "--model", "plugging", "--velocity", "10..100"],
     );
     assert!(
-        text.contains("never perforates: it is stopped at every velocity up to 100 m/s"),
+        text.contains("partial penetration at every velocity up to 100 m/s"),
         "{text}"
     );
     let quiet = ok(

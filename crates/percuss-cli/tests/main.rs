@@ -38,3 +38,4 @@ mod units;
 mod validate;
 mod validation;
 mod vocabulary;
+mod wrong_place;

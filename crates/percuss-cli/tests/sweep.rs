@@ -122,6 +122,41 @@ fn every_shot_is_a_row_and_one_that_fails_has_its_error() {
 }
 
 #[test]
+fn rows_are_merged_into_csv_by_the_name_of_the_file() {
+    let folder = folder();
+    ok(&folder, &["random.toml", "--out", "rows"]);
+    ok(&folder, &["merge", "rows", "--out", "rows.csv"]);
+    let text = fs::read_to_string(folder.path().join("rows.csv")).unwrap();
+    let mut rows = csv::Reader::from_reader(text.as_bytes());
+    let names = rows.headers().unwrap().clone();
+    let place = |name: &str| names.iter().position(|found| found == name).unwrap();
+    let (speed, depth) = (
+        place("projectile.impact_velocity_m_s"),
+        place("depth_of_penetration_mm"),
+    );
+    let mut count = 0;
+    for row in rows.records() {
+        let row = row.unwrap();
+        assert_eq!(row[0], count.to_string());
+        let fails = row[speed].parse::<f64>().unwrap() < 0.0;
+        assert_eq!(row[depth].parse::<f64>().is_ok(), !fails, "{row:?}");
+        count += 1;
+    }
+    assert_eq!(count, 50);
+    ok(
+        &folder,
+        &["merge", "rows", "--out", "si.csv", "--units", "SI"],
+    );
+    let text = fs::read_to_string(folder.path().join("si.csv")).unwrap();
+    assert!(
+        text.lines()
+            .next()
+            .unwrap()
+            .contains("depth_of_penetration_m,")
+    );
+}
+
+#[test]
 fn lost_and_damaged_blocks_are_computed_again() {
     let folder = folder();
     ok(&folder, &["random.toml", "--out", "rows"]);

@@ -151,7 +151,7 @@ fn wrong_files_are_refused_with_place_and_remedy() {
         ),
         (
             TESTS.replace("two,my <lab> & co,taylor", "two,my <lab> & co,tailor"),
-            ["`tailor` is no kind", "did you mean `taylor`?"],
+            ["unknown value `tailor`", "did you mean `taylor`?"],
         ),
         (
             TESTS.replace(

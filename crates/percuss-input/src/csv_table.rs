@@ -138,7 +138,7 @@ impl CsvRow<'_> {
             .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
         Err(self.error(
             column,
-            format!("`{}` is no {}", shorten(text), column.replace('_', " ")),
+            format!("unknown value `{}`", shorten(text)),
             format!("{near}allowed: {}", names.join(", ")),
         ))
     }

@@ -1,6 +1,10 @@
 //! Axisymmetric answer as rows of a label and a value, for the terminal and the page.
 
-use percuss::{axisymmetric::AxisymmetricAnswer, outcome::BandQuantity, summary::ResultRecord};
+use percuss::{
+    axisymmetric::{AxisymmetricAnswer, HIGHEST_ORDER},
+    outcome::BandQuantity,
+    summary::ResultRecord,
+};
 
 use crate::result_rows::{Row, number, with_uncertainty};
 
@@ -92,6 +96,9 @@ fn finest(answer: &AxisymmetricAnswer, quantity: BandQuantity) -> Option<f64> {
 /// What the value and its uncertainty are.
 fn basis(answer: &AxisymmetricAnswer) -> String {
     match (answer.uncertainty, answer.order) {
+        (Some(_), Some(order)) if order > HIGHEST_ORDER => format!(
+            "extrapolated at order {HIGHEST_ORDER}, observed {order:.1}; ± is the error of the mesh alone"
+        ),
         (Some(_), Some(order)) => format!(
             "extrapolated at the observed order {order:.1}; ± is the error of the mesh alone"
         ),

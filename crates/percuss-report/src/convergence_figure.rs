@@ -15,7 +15,7 @@ pub fn convergence_figure(case: &str, study: &MeshStudy, quantity: usize) -> Opt
 /// The chart that [`convergence_figure`] draws.
 pub fn convergence_chart(case: &str, study: &MeshStudy, quantity: usize) -> Option<Chart> {
     let quantity = study.quantities.get(quantity)?;
-    let (name, unit) = result_column(quantity.name);
+    let (name, _) = result_column(quantity.name);
     let points = study
         .meshes
         .iter()
@@ -25,7 +25,7 @@ pub fn convergence_chart(case: &str, study: &MeshStudy, quantity: usize) -> Opti
         format!("convergence-{}", quantity.name.replace('_', "-")),
         format!("Convergence of the {name}: {case}"),
         Axis::new("Elements along the projectile").log(),
-        Axis::new(with_unit(&name, unit)),
+        Axis::new(with_unit(&name, quantity.unit)),
     )
     .series(Series::new("computed", points).style(Style::LineAndMarkers));
     if let ConvergenceStatus::Converging {
@@ -33,7 +33,7 @@ pub fn convergence_chart(case: &str, study: &MeshStudy, quantity: usize) -> Opti
     } = quantity.status
     {
         chart = chart.mark(Mark::horizontal(
-            format!("Richardson extrapolation, order {order:.2}"),
+            format!("extrapolated at order {order:.2}"),
             richardson,
         ));
     }

@@ -24,10 +24,22 @@ pub fn v50_figure(name: &str, tests: &[Test], v50: &V50) -> Figure {
                 high.max(test.impact_velocity),
             )
         });
-    let margin = 0.15 * (fastest - slowest);
+    let span = fastest - slowest;
+    let drawn_ends: Vec<f64> = v50.of(Method::Probit).map_or_else(Vec::new, |entry| {
+        let ends = [entry.low_m_s, entry.high_m_s].into_iter().flatten();
+        // An end far from all tests would leave them a small part of the axis.
+        ends.filter(|end| (slowest - span..=fastest + span).contains(end))
+            .collect()
+    });
+    let margin = 0.15 * span;
+    let (from, to) = drawn_ends
+        .iter()
+        .fold((slowest - margin, fastest + margin), |(from, to), end| {
+            (from.min(*end), to.max(*end))
+        });
     let speeds = (0..=POINTS).map(|i| {
         let part = f64::from(i) / f64::from(POINTS);
-        slowest - margin + part * (fastest - slowest + 2.0 * margin)
+        from + part * (to - from)
     });
     for (method, style) in [
         (Method::Probit, Style::Line),
@@ -55,29 +67,35 @@ pub fn v50_figure(name: &str, tests: &[Test], v50: &V50) -> Figure {
         );
     }
     if let Some(entry) = v50.of(Method::Probit) {
-        chart = marks(chart, entry);
+        chart = marks(chart, entry, &drawn_ends);
+        if let (Some(interval), true) = (interval(entry), drawn_ends.is_empty()) {
+            chart = chart.caption(format!("{}; {interval}", caption(v50)));
+        }
     }
     chart.draw()
 }
 
-/// V50 and the ends of its interval.
-fn marks(mut chart: LineChart, entry: &Estimate) -> LineChart {
+/// V50 and the ends of its interval that are drawn.
+fn marks(mut chart: LineChart, entry: &Estimate, drawn_ends: &[f64]) -> LineChart {
     if let Some(value) = entry.v50_m_s {
         chart = chart.mark(Mark::vertical(
             format!("V50 {} m/s", significant(value)),
             value,
         ));
     }
-    if let (Some(low), Some(high)) = (entry.low_m_s, entry.high_m_s) {
-        let name = format!(
-            "95 % interval {} to {} m/s",
-            significant(low),
-            significant(high)
-        );
-        chart = chart.mark(Mark::vertical(name, low));
-        chart = chart.mark(Mark::vertical("", high));
+    if let Some(mut name) = interval(entry) {
+        for end in drawn_ends {
+            chart = chart.mark(Mark::vertical(std::mem::take(&mut name), *end));
+        }
     }
     chart
+}
+
+/// The interval of V50 in words, where it is bounded.
+fn interval(entry: &Estimate) -> Option<String> {
+    let (low, high) = (entry.low_m_s?, entry.high_m_s?);
+    let (low, high) = (significant(low), significant(high));
+    Some(format!("95 % interval {low} to {high} m/s"))
 }
 
 fn caption(v50: &V50) -> String {

@@ -8,7 +8,7 @@ use crate::{
     outcome::RunResult,
     richardson::{CREDIBLE_ORDERS, OnMesh, Trend, extrapolate, trend},
     summary::result_number,
-    units::ResultUnit,
+    units::{ResultUnit, significant},
 };
 
 /// Factor between the numbers of elements of two meshes.
@@ -177,8 +177,8 @@ impl ConvergenceStatus {
             ),
             Self::Converging { index, .. } => {
                 format!(
-                    "converges; uncertainty of the finest mesh ±{:.2} %",
-                    100.0 * index
+                    "converges; uncertainty of the finest mesh ±{} %",
+                    significant(100.0 * index, 2)
                 )
             }
             Self::Unconfirmed { spread, .. }

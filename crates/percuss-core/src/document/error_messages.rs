@@ -137,12 +137,31 @@ fn unknown_name(what: &str, name: &str, allowed: &[&str]) -> Reworded {
     }
 }
 
+/// How required keys are written that a user may not guess.
+const EXAMPLES: [(&str, &str); 10] = [
+    ("density", "\"8960 kg/m3\""),
+    ("diameter", "\"4.8 mm\""),
+    ("impact_velocity", "\"230 m/s\""),
+    ("material", "\"copper\""),
+    ("name", "\"My alloy\""),
+    ("poissons_ratio", "0.34"),
+    ("position", "\"5 mm\""),
+    ("source", "\"my-notebook\""),
+    ("thickness", "\"25 mm\""),
+    ("youngs_modulus", "\"124 GPa\""),
+];
+
 fn missing(message: &str) -> Option<Reworded> {
-    if let Some(name) = message.strip_prefix("missing field ") {
+    if let Some(quoted) = message.strip_prefix("missing field ") {
+        let name = quoted.trim_matches('`');
+        let example = EXAMPLES.iter().find(|(key, _)| *key == name);
+        let example = example.map_or_else(String::new, |(_, value)| {
+            format!(", for example {name} = {value}")
+        });
         return Some(Reworded {
-            message: format!("the key {name} is missing"),
-            help: format!("add {name}"),
-            name: Some(name.trim_matches('`').to_owned()),
+            message: format!("the key {quoted} is missing"),
+            help: format!("add {quoted}{example}"),
+            name: Some(name.to_owned()),
         });
     }
     let count = message.strip_prefix("wanted exactly 1 element, ")?;

@@ -154,6 +154,9 @@ impl Document {
             let renamed = renamed.in_its_table();
             (message, help) = (renamed.message(), renamed.help());
         }
+        if let Some(more) = self.help_for_another_file(error.message()) {
+            help = more.to_owned();
+        }
         let table = key.split('.').next().unwrap_or_default();
         InputError {
             subject: match OF_MATERIALS.contains(&table) {
@@ -167,6 +170,30 @@ impl Document {
             message,
             help,
         }
+    }
+
+    /// Help where the whole file is of another kind than the one that is due.
+    fn help_for_another_file(&self, message: &str) -> Option<&'static str> {
+        let extension = Path::new(&self.file).extension();
+        if extension.is_some_and(|found| found.eq_ignore_ascii_case("csv")) {
+            return Some(
+                "a TOML file is due here, not comma-separated values; results of tests are given with `--tests` or `--data`",
+            );
+        }
+        let root = self.text.parse::<toml::Table>().ok()?;
+        let is_case = root.contains_key("projectile") && root.contains_key("target");
+        if !is_case || !message.starts_with("unknown field") {
+            return None;
+        }
+        if self.subject == Subject::Material {
+            return Some(
+                "this is a case, and a file of materials is due here; `--case` takes a case",
+            );
+        }
+        let is_of_a_sweep = message.contains("`base`") && message.contains("`design`");
+        is_of_a_sweep.then_some(
+            "this is a case, and a sweep file is due here: it names the case, base = \"scenario.toml\", with a model, a design and [[parameter]] tables",
+        )
     }
 
     /// Names of the keys in a table; none where there is no table under that key.

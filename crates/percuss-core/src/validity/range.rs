@@ -26,7 +26,7 @@ impl Range {
         min: crate::regime::THIN,
         max: f64::INFINITY,
         outside: Outside::Warning,
-        because: "a thin plate is plugged or bent, and a column can do neither: it says nothing of perforation",
+        because: "a thin plate fails by plugging or bending, and a column includes neither: it does not predict perforation",
     };
 
     /// A warning on targets that are not much thicker than the projectile, for models whose resistance is that of an infinite body.

@@ -179,7 +179,12 @@ fn columns(
             },
             ColumnName::UnknownUnit(unit) => {
                 let message = format!("`{}` is no unit of `{}`", shorten(&unit), kind.0);
-                return refuse(message, format!("units: {}", column_symbols(kind.1)));
+                let separator = match table.header.len() {
+                    1 => "; columns are separated by commas",
+                    _ => "",
+                };
+                let units = column_symbols(kind.1);
+                return refuse(message, format!("units: {units}{separator}"));
             }
             _ => {
                 let message = format!("the unit of `{}` is missing", kind.0);

@@ -14,6 +14,9 @@ use crate::{
     units::{Length, Mass, Quantity, Velocity},
 };
 
+/// Materials of the user that an error lists at most.
+const MOST_OWN: usize = 6;
+
 /// Looks up materials and works out what is given indirectly; diagnostics go to `check`.
 pub(super) fn resolve(
     name: &str,
@@ -116,13 +119,29 @@ fn look_up<'a>(
     let found = library.find(name);
     if found.is_none() {
         let near = library.suggestion(name);
+        let own = match own_ids(library).as_slice() {
+            [] => "your own go under `[materials.NAME]`".to_owned(),
+            ids => format!("your own: {}", ids.join(", ")),
+        };
         check.of_material().fail(
             &format!("{table}.material"),
             library.unknown(name),
-            format!("{near}`percuss materials` lists all; your own go under `[materials.NAME]`"),
+            format!("{near}`percuss materials` lists all; {own}"),
         );
     }
     found
+}
+
+/// Ids of the first few materials that the program does not ship: those of the case and of the files that it names.
+fn own_ids(library: &Library) -> Vec<String> {
+    let of_case = library.iter().filter(|entry| {
+        let shipped = Library::built_in().find(&entry.id);
+        shipped.is_none_or(|shipped| shipped.origin != entry.origin)
+    });
+    of_case
+        .take(MOST_OWN)
+        .map(|entry| format!("`{}`", entry.id))
+        .collect()
 }
 
 fn resolve_rod(case: &Case, library: &Library, check: &mut Check<'_>) -> Option<Rod> {

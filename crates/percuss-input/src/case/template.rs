@@ -1,6 +1,6 @@
 //! A case whose numbers can be changed before it becomes a scenario.
 
-use std::{fmt, path::Path, sync::Arc};
+use std::{borrow::Cow, fmt, path::Path, sync::Arc};
 
 use serde::Deserialize;
 use toml::{Table, Value};
@@ -128,6 +128,7 @@ impl Template {
         changes: &[(&str, Value)],
     ) -> Result<Option<Material>, Vec<Diagnostic>> {
         let table = self.changed(changes)?;
+        let id = self.record_of(id);
         let own = table.get("materials").and_then(|own| own.get(id));
         let read = |own: &Value| Material::deserialize(own.clone()).ok();
         Ok(own.and_then(read).or_else(|| {
@@ -139,8 +140,10 @@ impl Template {
     fn changed(&self, changes: &[(&str, Value)]) -> Result<Table, Vec<Diagnostic>> {
         let mut table = self.table.clone();
         for (key, value) in changes {
+            let key = &*self.key_of_record(key);
             self.adopt(&mut table, key)
                 .map_err(|diagnostic| vec![diagnostic])?;
+            other_law(&table, key).map_or(Ok(()), |diagnostic| Err(vec![diagnostic]))?;
             put(&mut table, key, value.clone()).map_err(|message| {
                 let help = "name a number of the case by the tables that it stands in, such as projectile.impact_velocity";
                 vec![Diagnostic::at(key, message, help)]
@@ -149,12 +152,53 @@ impl Template {
         Ok(table)
     }
 
+    /// Id of the record that a name selects; the name itself where no record answers to it.
+    fn record_of<'a>(&'a self, name: &'a str) -> &'a str {
+        let own = self.table.get("materials").and_then(|own| own.get(name));
+        match (own, self.library.find(name)) {
+            (None, Some(entry)) => &entry.id,
+            _ => name,
+        }
+    }
+
+    /// A key with the id of its material in place of a family or an alias: the case may name the same record differently, and a changed
+    /// copy under another id would have no effect.
+    fn key_of_record<'a>(&self, key: &'a str) -> Cow<'a, str> {
+        let Some((name, rest)) = material_of(key) else {
+            return Cow::Borrowed(key);
+        };
+        match self.record_of(name) {
+            id if id == name => Cow::Borrowed(key),
+            id => Cow::Owned(format!("materials.{id}.{rest}")),
+        }
+    }
+
+    /// The material of a key, if there is such a record and no part of the case is made of it: then no change of it has an effect.
+    pub fn unused_material<'a>(&self, key: &'a str) -> Option<&'a str> {
+        let (name, _) = material_of(key)?;
+        let record = self.record_of(name);
+        let part = |part: &str| self.table.get(part)?.get("material")?.as_str();
+        let layers = self
+            .table
+            .get("target")
+            .and_then(|target| target.get("layers")?.as_array());
+        let of_layers = layers
+            .into_iter()
+            .flatten()
+            .filter_map(|layer| layer.get("material")?.as_str());
+        let mut used = ["projectile", "target"]
+            .into_iter()
+            .filter_map(part)
+            .chain(of_layers);
+        match used.any(|used| self.record_of(used) == record) {
+            true => None,
+            false => Some(name),
+        }
+    }
+
     /// Puts the library's record of a material into the case that a key changes a number of, unless the case has its own.
     fn adopt(&self, table: &mut Table, key: &str) -> Result<(), Diagnostic> {
-        let Some((id, _)) = key
-            .strip_prefix("materials.")
-            .and_then(|rest| rest.split_once('.'))
-        else {
+        let Some((id, _)) = material_of(key) else {
             return Ok(());
         };
         let own = table
@@ -178,6 +222,26 @@ impl Template {
         own.insert(id.to_owned(), record);
         Ok(())
     }
+}
+
+/// Name of the material whose number a key is, and the key within its record.
+fn material_of(key: &str) -> Option<(&str, &str)> {
+    key.strip_prefix("materials.")?.split_once('.')
+}
+
+/// What is wrong with a constant of another strength law than that of the material.
+fn other_law(table: &Table, key: &str) -> Option<Diagnostic> {
+    let (id, rest) = material_of(key)?;
+    let (law, _) = rest.strip_prefix("strength.")?.split_once('.')?;
+    let strength = table
+        .get("materials")?
+        .get(id)?
+        .get("strength")?
+        .as_table()?;
+    let own = strength.keys().next().filter(|own| *own != law)?;
+    let message = format!("`{id}` has the strength law `{own}`, not `{law}`");
+    let help = format!("name a constant of that law, materials.{id}.strength.{own}.NAME");
+    Some(Diagnostic::at(key, message, help))
 }
 
 /// Puts a value under a dotted key; tables on the way are made where a default stands in for them.

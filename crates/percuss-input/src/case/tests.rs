@@ -107,7 +107,29 @@ fn digits_are_an_index_in_a_list_and_a_key_in_a_table() {
             "the case has no list `projectile.length`",
         ),
         ("materials.4130.density", "no material is named `4130`"),
+        (
+            "materials.4340.strength.johnson_cook.a",
+            "`4340` has the strength law `perfectly_plastic`, not `johnson_cook`",
+        ),
     ] {
         assert_eq!(said(key), message, "{key}");
     }
+}
+
+#[test]
+fn a_key_may_name_the_material_by_its_family_or_an_alias() {
+    let text = "projectile = { material = 'copper', length = '20 mm', diameter = '5 mm', impact_velocity = '300 m/s' }\n\
+                target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n";
+    let template = Template::of(&Document::new("names", text)).unwrap();
+    for name in ["copper", "cu", "copper-woodward"] {
+        let key = format!("materials.{name}.density");
+        let denser = template.scenario(&[(&key, "9 g/cm3".into())]).unwrap();
+        assert_eq!(denser.projectile.material.density.si(), 9000.0, "{name}");
+        let record = template.material(name, &[(&key, "9 g/cm3".into())]);
+        assert_eq!(record.unwrap().unwrap().density.si(), 9000.0, "{name}");
+        assert_eq!(template.unused_material(&key), None);
+    }
+    let other = "materials.4340.density";
+    assert_eq!(template.unused_material(other), Some("4340"));
+    assert_eq!(template.unused_material("target.thickness"), None);
 }

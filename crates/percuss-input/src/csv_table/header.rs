@@ -4,7 +4,7 @@ use super::{CsvTable, field_span};
 use crate::{
     document::Renamed,
     error::{InputError, nearest},
-    units::shorten,
+    units::{ColumnName, ResultUnit, shorten},
 };
 
 /// Makes sure that columns are there once and that none is missing; returns those that nothing reads.
@@ -38,7 +38,23 @@ pub fn check(
         if let Some(renamed) = Renamed::of(name) {
             return Err(table.error(span, name, renamed.message(), renamed.help()));
         }
-        if let Some(near) = nearest(name, known.iter().copied()) {
+        let near = nearest(name, known.iter().copied());
+        let in_other_unit = |known: &&&str| {
+            let (quantity, unit) = ResultUnit::split(known);
+            let of_name = ColumnName::of(name, quantity, unit);
+            unit != ResultUnit::NONE && matches!(of_name, ColumnName::InUnit(_))
+        };
+        if let Some(other) = known.iter().find(in_other_unit) {
+            // Its numbers under the other name would be wrong by the ratio of the units.
+            let (_, unit) = ResultUnit::split(other);
+            let message = format!("the unit of `{}` is not read here", shorten(name));
+            let help = format!(
+                "convert its numbers to {}, and name it `{other}`",
+                unit.symbol
+            );
+            return Err(table.error(span, name, message, help));
+        }
+        if let Some(near) = near {
             let message = format!("no column is named `{}`", shorten(name));
             let help = format!("did you mean `{near}`? rename a column of another kind{separator}");
             return Err(table.error(span, name, message, help));

@@ -193,7 +193,7 @@ def uncertainty(
     Raises
     ------
     CaseError
-        When the case says nothing of what is uncertain, or something that cannot be.
+        When the case has no uncertain parameters, or one that cannot vary.
     NotApplicableError
         When the model does not apply with every number at its median.
     UsageError

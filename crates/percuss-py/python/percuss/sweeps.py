@@ -79,7 +79,7 @@ class SweepResult:
         return dataset({name: rows[name].to_pylist() for name in rows.column_names}, "run", units, "run")
 
     def merge(self, out: Path, units: str | None = None) -> int:
-        """Writes all rows into one Parquet file, as :func:`percuss.merge` does; returns their number."""
+        """Writes all rows into one file, as :func:`percuss.merge` does; returns their number."""
         return merge(self, out, units=units)
 
     def plot(self, x: str, y: str, colour: str | None = None, ax: Axes | None = None) -> Axes:
@@ -197,7 +197,7 @@ def merge(folders: Path | Sequence[Path], out: Path, *, units: str | None = None
     folders : path, SweepResult or sequence of them
         Folders of results.
     out : path
-        File to write; it is replaced if it exists.
+        File to write, CSV if its name ends with ``.csv``, otherwise Parquet; it is replaced if it exists.
     units : str, optional
         Unit system of the columns, such as ``"mm-ms-kN"``; their names say so. The units of the folder when not given.
 

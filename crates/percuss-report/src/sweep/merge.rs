@@ -26,11 +26,11 @@ use percuss::{
     units::UnitSystem,
 };
 
-use super::{block_file, is_sweep_file, manifest::Manifest, parts::Parts};
+use super::{block_file, is_sweep_file, manifest::Manifest, merge_csv, parts::Parts};
 use crate::{ReportError, replace_file::replace_file_durably};
 
-/// Joins the blocks of folders that hold parts of one sweep into one Parquet file, in the order of the runs: a row group a
-/// block. Columns are in the units of a system where one is given. The file depends on the sweep alone, not on who computed which block. Returns the number of rows.
+/// Joins the blocks of folders that hold parts of one sweep into one file, in the order of the runs: CSV where its name ends with
+/// `.csv`, otherwise Parquet with a row group per block. Columns are in the units of a system where one is given. The file depends on the sweep alone, not on who computed which block. Returns the number of rows.
 ///
 /// # Errors
 /// [`ReportError::Sweep`] when a folder holds another sweep or a block is missing; [`ReportError::Write`]; [`ReportError::Table`].
@@ -72,9 +72,19 @@ pub fn merge(
     })?;
     replace_file_durably(folder, &name, |file| {
         // What is wrong with the blocks comes out as an error of the system too: their footers were read before.
-        join(&files, &parts.manifest, units, file).map_err(io::Error::other)
+        let joined = match is_csv(out) {
+            true => merge_csv::write(&files, units, file),
+            false => join(&files, &parts.manifest, units, file),
+        };
+        joined.map_err(io::Error::other)
     })?;
     Ok(parts.manifest.runs)
+}
+
+/// Whether a file is to have comma-separated values, by its name.
+fn is_csv(out: &Path) -> bool {
+    out.extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
 }
 
 /// Name and factor of a column of numbers in a unit system; `None` where it stays as it is.

@@ -9,6 +9,7 @@ mod columns;
 mod folder;
 mod manifest;
 mod merge;
+mod merge_csv;
 mod parts;
 mod plot;
 mod rows;

@@ -14,9 +14,9 @@ pub(super) fn page<'a>(
     figures: &'a [ModelFigure],
 ) -> Vec<Block<'a>> {
     let mut page = vec![
-        Block::Title("Validation against published tests".to_owned()),
+        Block::Title("Validation against tests".to_owned()),
         Block::Text(format!(
-            "Every model of percuss {} on every published test to which it applies. Tests: {}. Command: {}",
+            "Every model of percuss {} on every test to which it applies. Tests: {}. Command: {}",
             env!("CARGO_PKG_VERSION"),
             origin.files.join(", "),
             origin.command

@@ -127,7 +127,7 @@ fn an_analysis_of_uncertainty_has_its_bounds() {
     let last = elements("20, 9000");
     assert_eq!(last["done"]["uncertainty"]["failures"]["runs"], 8, "{last}");
     let last = outcome(&served, "uncertainty", &json!({ "case": PAPER }));
-    let said = "the case says nothing of what is uncertain";
+    let said = "the case has no uncertain parameters";
     assert_eq!(last["problem"]["message"], said);
 }
 

@@ -43,6 +43,13 @@ export function calibration(page: Page, numbers: Numbers): Kind {
       },
     }),
     show: (done) => show(done as Calibrated),
+    example: {
+      name: "taylor-copper-wilkins",
+      about: "Four Taylor tests of copper rods, to which the first strength constant is fitted.",
+      suits: () => false,
+      refusal: /no measured value/,
+      loaded: () => parameters.reset(),
+    },
   };
 }
 
@@ -78,7 +85,7 @@ function parameterTable({ calibration: found }: Calibrated): HTMLElement {
     ...(sampled ? marginal(p.posterior) : []),
   ]);
   const { scatter } = found;
-  lines.push(["relative scatter [%]", scatter.estimated ? "" : "given", percent(scatter.best), "", ...(sampled ? marginal(scatter.posterior, 100) : [])]);
+  lines.push(["scatter [%]", scatter.estimated ? "" : "given", percent(scatter.best), "", ...(sampled ? marginal(scatter.posterior, 100) : [])]);
   return table(head, lines);
 }
 

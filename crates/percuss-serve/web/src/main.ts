@@ -47,6 +47,8 @@ let values = start.answer.values;
 let rest = 0;
 let current: { control: AbortController; since: number } | null = null;
 let saved = 0;
+// What waits for the next whole answer.
+const waiting: (() => void)[] = [];
 
 // Asks for the answer to the case as it stands, with edits of the form. While one is computed the latest wish waits. While a slider
 // moves a draft will do: the curves in view, with fewer points.
@@ -138,6 +140,7 @@ function show(answer: Answer, since: number | null, draft: boolean): void {
   past.add({ name, case: answer.case, model: answer.model });
   variants.follow(answer);
   numbers.follow(answer);
+  for (const done of waiting.splice(0)) done();
   sideBySide.follow({ name, case: answer.case });
   refinement.follow({ name, case: answer.case }, answer);
   downloads(answer);
@@ -273,6 +276,11 @@ function build(): void {
       text.scrollTop = text.scrollHeight;
       text.focus({ preventScroll: true });
       ask();
+    },
+    example: (wanted: string) => {
+      const known = start.cases.find((one) => one.name === wanted);
+      if (known) load({ name: known.name, case: known.text, model: null });
+      return new Promise<void>((done) => waiting.push(done));
     },
   };
   get("studies").append(...studies(page, numbers, others));

@@ -11,6 +11,8 @@ export interface Page {
   request(): { name: string; case: string; model: string };
   hasUncertainty(): boolean;
   insert(text: string): void;
+  // Loads a ready case; done when its answer is shown.
+  example(name: string): Promise<void>;
 }
 
 export interface Kind {
@@ -25,6 +27,18 @@ export interface Kind {
   show(done: unknown, view: (chart: Chart, files: Study["files"]) => ChartView): HTMLElement[];
   // What else to say to a refusal.
   refused?(): HTMLElement | null;
+  // A ready case for which the study has a result.
+  example?: Example;
+}
+
+interface Example {
+  name: string;
+  about: string;
+  // Whether the study, or its refusal, came to nothing because the case lacks something.
+  suits(done: unknown): boolean;
+  refusal: RegExp;
+  // After the case is loaded.
+  loaded?(): void;
 }
 
 export type Views = ChartView[];
@@ -62,18 +76,31 @@ export function panel(kind: Kind, views: Views, page: Page): HTMLElement {
         bar.value = fraction;
         words.textContent = said;
       });
-      result.replaceChildren(...kind.show(done, view), ...outcome(done));
+      result.replaceChildren(...kind.show(done, view), ...(kind.example?.suits(done) ? [offer(kind.example)] : []), ...outcome(done));
     } catch (error) {
       if (own.signal.aborted) {
         result.replaceChildren(make("p", { class: "note" }, "cancelled"));
         return;
       }
       const problem = error instanceof Refused ? error.problem : unexpected(error);
-      result.replaceChildren(make("div", { class: "problem", role: "alert" }, ...explained(problem)), kind.refused?.() ?? "");
+      const more = kind.example?.refusal.test(problem.message) ? offer(kind.example) : kind.refused?.();
+      result.replaceChildren(make("div", { class: "problem", role: "alert" }, ...explained(problem)), more ?? "");
     } finally {
       running.hidden = true;
       start.disabled = false;
     }
+  }
+
+  // Loads the ready case and starts the study again.
+  function offer(example: Example): HTMLElement {
+    const load = button(`Use the example ${example.name}`, () => {
+      load.disabled = true;
+      void page.example(example.name).then(() => {
+        example.loaded?.();
+        return run();
+      });
+    });
+    return make("p", { class: "note" }, load, ` ${example.about} It replaces the case of the page; Undo brings that back.`);
   }
 
   // Files that name each other keep their names; others are told apart by the case.

@@ -168,6 +168,13 @@ export class Parameters {
     this.limit();
   }
 
+  // One row again, for a number of the present case.
+  reset(): void {
+    for (const row of this.rows.splice(0)) row.element.remove();
+    if (this.byHand.checked) this.byHand.click();
+    this.insert();
+  }
+
   private limit(): void {
     this.add.disabled = this.rows.length >= this.shape.most;
   }

@@ -41,6 +41,12 @@ export function studies(page: Page, numbers: Numbers, views: Views): HTMLElement
       path: "/api/study/limit",
       body: () => ({ ...asked(), model: null }),
       show: (done) => limits(done as Limits),
+      example: {
+        name: "weldox-460e-12mm-blunt",
+        about: "A blunt projectile on a steel plate of 12 mm, with its measured limit.",
+        suits: (done) => (done as Limits).limits.results.every((limit) => limit.outcome !== "found"),
+        refusal: /no model gives a result/,
+      },
     },
     sweep(page, numbers),
     uncertainty(page),

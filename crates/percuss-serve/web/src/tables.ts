@@ -71,7 +71,8 @@ export function limits(study: Limits): HTMLElement[] {
   const said: HTMLElement[] = [];
   if (study.headline) said.push(make("p", {}, make("b", {}, study.headline)));
   if (study.axisymmetric && !chosen.has("axi")) said.push(make("p", {}, `Axisymmetric limit ${study.axisymmetric}`));
-  if (axisymmetric?.reason) said.push(make("p", {}, `No axisymmetric limit: ${axisymmetric.reason}`));
+  // One reason for all models stands below.
+  if (axisymmetric?.reason && axisymmetric.reason !== study.rear_face) said.push(make("p", {}, `No axisymmetric limit: ${axisymmetric.reason}`));
   for (const warning of axisymmetric?.warnings ?? []) said.push(make("p", {}, `axi: ${warning}`));
   if (study.rear_face) said.push(make("p", {}, study.rear_face));
   for (const [model, because] of chosen) said.push(make("p", {}, make("b", {}, `Recommended: ${model} ★ `), because));

@@ -81,7 +81,7 @@ test("uncertainty has the numbers of the command line", async () => {
 
 test("a case that says nothing of uncertainty is given an example", async () => {
   const page = await open();
-  const of = await analysis(page, "the case says nothing of what is uncertain");
+  const of = await analysis(page, "the case has no uncertain parameters");
   await of.getByRole("button", { name: "Insert an example" }).click();
   await answered(page, 2);
   assert.match(await page.locator("#text").inputValue(), /\[\[uncertainty\.parameter\]\]\nkey = "projectile\.impact_velocity"/);
@@ -91,6 +91,27 @@ test("a case that says nothing of uncertainty is given an example", async () => 
   await analysis(page, "No Sobol' indices: they were not asked for");
   assert.equal(JSON.parse(await take(page, of, "uncertainty.json")).inputs.length, 4);
   await page.context().close();
+});
+
+test("a study that the case lacks something for offers an example and runs it", async () => {
+  const page = await open();
+  const limit = await study(page, "Ballistic limit");
+  await limit.getByRole("button", { name: "Ballistic limit" }).click();
+  await limit.getByRole("button", { name: "Use the example weldox-460e-12mm-blunt" }).click({ timeout: 120_000 });
+  await limit.locator("figure canvas").first().waitFor({ timeout: 120_000 });
+  assert.match(await limit.innerText(), /experiment\s+184\.5/);
+  assert.match(await page.locator("#text").inputValue(), /ballistic_limit/);
+  await page.context().close();
+
+  const other = await open();
+  const bare = await study(other, "Calibrate");
+  await bare.getByRole("button", { name: "Calibrate" }).click();
+  await bare.getByText("the case has no measured value").waitFor();
+  await bare.getByRole("button", { name: "Use the example taylor-copper-wilkins" }).click();
+  await bare.getByText("Measured and predicted values").waitFor({ timeout: 120_000 });
+  assert.doesNotMatch(await bare.innerText(), /Not identified/);
+  assert.match(await other.locator("#text").inputValue(), /rigid_wall/);
+  await other.context().close();
 });
 
 test("the browser had nothing to complain about", () => {

@@ -6,7 +6,7 @@ use crate::richardson::{OnMesh, Trend, extrapolate, trend};
 /// differ by a factor of two find more by chance.
 const CREDIBLE: std::ops::RangeInclusive<f64> = 0.5..=3.0;
 /// Highest order of an extrapolation: that of the scheme.
-const HIGHEST: f64 = 2.0;
+pub const HIGHEST_ORDER: f64 = 2.0;
 /// Lowest order of the error of a single mesh.
 const FIRST: f64 = 1.0;
 /// Least uncertainty, as a part of what the impact changed.
@@ -40,7 +40,7 @@ pub fn limit(meshes: &[OnMesh], untouched: f64, resolution: f64) -> Option<MeshL
     let at_first_order = extrapolate(medium, fine, FIRST);
     let found = match meshes {
         [.., coarse, _, _] => order([*coarse, medium, fine]).map(|order| {
-            let value = extrapolate(medium, fine, order.min(HIGHEST));
+            let value = extrapolate(medium, fine, order.min(HIGHEST_ORDER));
             MeshLimit {
                 value,
                 uncertainty: (value - fine.value)

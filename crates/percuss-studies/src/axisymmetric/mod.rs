@@ -39,7 +39,7 @@ use crate::{
 };
 
 pub use cost::{BUDGET, seconds};
-pub use limit::{MeshLimit, limit};
+pub use limit::{HIGHEST_ORDER, MeshLimit, limit};
 pub(crate) use plan::too_costly;
 pub use plan::{Plan, ReferenceMeshes, Request, plan};
 

@@ -146,6 +146,28 @@ fn test(row: &CsvRow<'_>, library: &Library) -> Result<Experiment, Box<InputErro
             "with the material's density one follows from the other: fill in one of them",
         ));
     }
+    if let (Kind::Taylor, Some(length)) = (kind, length)
+        && measured > length
+    {
+        return Err(row.error(
+            "measured",
+            format!(
+                "the final length is larger than the length of {} mm",
+                row.text("length_mm")
+            ),
+            "a rod becomes shorter: are the two columns exchanged?",
+        ));
+    }
+    if kind == Kind::ResidualVelocity && measured > impact_velocity {
+        return Err(row.error(
+            "measured",
+            "the residual velocity is larger than the impact velocity",
+            format!(
+                "the impact velocity is {} m/s",
+                row.text("impact_velocity_m_s")
+            ),
+        ));
+    }
     let diameter = scaled("diameter_mm", 1e-3)?;
     if usable {
         row.required_number("diameter_mm")?;

@@ -181,6 +181,25 @@ fn a_file_needs_a_few_columns_only() {
 }
 
 #[test]
+fn results_that_no_impact_can_have_are_refused() {
+    let header = HEADER.replace("mass_g", "length_mm");
+    for (row, words) in [
+        (
+            "a,taylor,copper,7.6,20,200,rigid-wall,,20.1,mm",
+            "the final length is larger than the length of 20 mm",
+        ),
+        (
+            "a,residual_velocity,copper,7.6,20,200,aluminium-2024-t351,5,201,m/s",
+            "larger than the impact velocity",
+        ),
+    ] {
+        let text = format!("{header}\n{row}\n");
+        let error = read_str("tests.csv", &text, Library::built_in()).unwrap_err();
+        assert!(error.to_string().contains(words), "{error}");
+    }
+}
+
+#[test]
 fn slips_are_found_where_they_are() {
     let good = "a,depth,copper,4.8,2,230,aluminium-2024-t351,25,0.05,mm";
     for (row, column, at, message, help) in [
@@ -216,14 +235,14 @@ fn slips_are_found_where_they_are() {
             good.replace("depth", "dept"),
             "kind",
             "dept",
-            "`dept` is no kind",
+            "unknown value `dept`",
             "did you mean `depth`? allowed: taylor",
         ),
         (
             good.replace("mm", "m/s"),
             "unit",
             "m/s",
-            "`m/s` is no unit",
+            "unknown value `m/s`",
             "allowed: mm",
         ),
         (

@@ -60,7 +60,7 @@ impl LimitRun {
 /// Why a model cannot be asked, at whatever velocity, and what the search comes to then.
 pub(super) fn unsuited(model: &dyn Model, scenario: &Scenario) -> Option<(LimitOutcome, String)> {
     if !model.validity().decides_perforation() {
-        let reason = "it does not say whether a target is perforated".to_owned();
+        let reason = "it does not predict perforation".to_owned();
         return Some((LimitOutcome::NotApplicable, reason));
     }
     match RearFace::of(scenario) {
@@ -75,9 +75,7 @@ pub(super) fn unsuited(model: &dyn Model, scenario: &Scenario) -> Option<(LimitO
 /// Whether a run perforates.
 pub(super) fn passage(result: &RunResult) -> Passage {
     let why = match result.outcome {
-        Outcome::Separated => {
-            "the target runs away from the projectile, and whether it opens is not said"
-        }
+        Outcome::Separated => "the target translates as a rigid body, and perforation is undecided",
         Outcome::OutOfTime => "the run ended before the impact did",
         Outcome::NotApplicable => "the model does not apply",
         _ => "the model failed",
@@ -261,11 +259,11 @@ fn no_bracket(samples: &[Sample<LimitRun>]) -> (LimitOutcome, String) {
                 .is_some_and(|last| last.velocity > stopped.velocity)
             {
                 true => format!(
-                    "it is stopped at every velocity up to {} m/s, and at higher ones the model gives no answer",
+                    "partial penetration at every velocity up to {} m/s; at higher ones the model gives no answer",
                     velocity(stopped)
                 ),
                 false => format!(
-                    "it is stopped at every velocity up to {} m/s; search further up",
+                    "partial penetration at every velocity up to {} m/s; search a range of higher velocities",
                     velocity(stopped)
                 ),
             },
@@ -273,14 +271,14 @@ fn no_bracket(samples: &[Sample<LimitRun>]) -> (LimitOutcome, String) {
         (None, Some(perforated)) => (
             LimitOutcome::AlwaysPerforates,
             format!(
-                "it perforates at every velocity from {} m/s on; search further down",
+                "complete penetration at every velocity from {} m/s on; search a range of lower velocities",
                 velocity(perforated)
             ),
         ),
         (Some(stopped), Some(perforated)) => (
             LimitOutcome::Undecided,
             format!(
-                "it perforates at {} m/s and is stopped at {} m/s, above it: no change from stopped to perforated lies in the range",
+                "complete penetration at {} m/s and partial at {} m/s, above it: no change from partial to complete lies in the range",
                 velocity(perforated),
                 velocity(stopped)
             ),

@@ -278,7 +278,12 @@ fn what_has_no_back_or_says_nothing_of_perforation_is_not_applicable() {
         &scenario(OGIVE),
         &Search::default(),
     );
-    assert!(poncelet.reason.unwrap().contains("does not say whether"));
+    assert!(
+        poncelet
+            .reason
+            .unwrap()
+            .contains("does not predict perforation")
+    );
 }
 
 #[test]

@@ -4,6 +4,8 @@ use crate::{case::Template, check::Check, inputs::Axis};
 
 /// Tries every value that the file writes down on the case, one at a time.
 pub(crate) fn check_values(axes: &[Axis], template: &Template, check: &mut Check<'_>) {
+    // A list of materials may name any of them.
+    let materials_vary = axes.iter().any(|axis| axis.key.ends_with(".material"));
     for (i, axis) in axes.iter().enumerate() {
         for (key, value) in &axis.samples {
             let written = axis.written(*value);
@@ -22,6 +24,18 @@ pub(crate) fn check_values(axes: &[Axis], template: &Template, check: &mut Check
                 check.fail(&format!("parameter.{i}.{key}"), message, diagnostic.help);
                 return;
             }
+        }
+        if let Some(id) = template
+            .unused_material(&axis.key)
+            .filter(|_| !materials_vary)
+        {
+            let message = format!(
+                "`{}` has no effect: no part of the case is of `{id}`",
+                axis.key
+            );
+            let help = "name a material of the projectile or the target";
+            check.fail(&format!("parameter.{i}.key"), message, help);
+            return;
         }
     }
 }

@@ -60,8 +60,7 @@ impl Study {
         let template = Template::of(document)?;
         let case: Case = document.parse()?;
         let Some(inputs) = case.uncertainty else {
-            let diagnostic =
-                Diagnostic::whole("the case says nothing of what is uncertain", EXAMPLE);
+            let diagnostic = Diagnostic::whole("the case has no uncertain parameters", EXAMPLE);
             return Err(document.place(diagnostic).into());
         };
         let mut diagnostics = Vec::new();

@@ -6,16 +6,32 @@ use super::Test;
 use crate::{
     check::limits::IMPACT_VELOCITY,
     csv_table::{CsvRow, CsvTable, header},
-    document::read_text,
+    document::{Renamed, read_text},
     error::{Error, InputError},
     experiments::TestFile,
-    units::Velocity,
+    units::{ColumnName, ColumnUnit, ResultUnit, Velocity, shorten},
 };
 
 const VELOCITY: &str = "impact_velocity_m_s";
 const PERFORATED: &str = "perforated";
+/// Names of the column of velocities without its unit.
+const QUANTITIES: [&str; 2] = ["impact_velocity", "velocity"];
+/// How a result of a test is written, in any case of letters.
+const RESULTS: [(&str, bool); 10] = [
+    ("yes", true),
+    ("no", false),
+    ("complete", true),
+    ("partial", false),
+    ("cp", true),
+    ("pp", false),
+    ("true", true),
+    ("false", false),
+    ("1", true),
+    ("0", false),
+];
 
-/// Columns of a file: the impact velocity [m/s], `yes` or `no`, and a note that nothing reads.
+/// Columns of a file: the impact velocity, also in another unit of its name, whether the target was perforated, and a note that nothing
+/// reads.
 pub const COLUMNS: [&str; 3] = [VELOCITY, PERFORATED, "note"];
 
 /// Reads a file of tests: comma-separated values with the columns [`COLUMNS`], of which the first two are required. Others are not read.
@@ -37,13 +53,16 @@ pub fn read_str(name: &str, text: &str) -> Result<Vec<Test>, Error> {
 
 fn file(name: &str, text: &str) -> Result<TestFile<Test>, Error> {
     let (table, records) = CsvTable::read(name, text)?;
-    let unread_columns = header::check(&table, &COLUMNS, &[VELOCITY, PERFORATED])?;
+    let (velocity, unit) = velocity(&table);
+    let known = [velocity.as_str(), COLUMNS[1], COLUMNS[2]];
+    let unread_columns = header::check(&table, &known, &[&velocity, PERFORATED])?;
     let mut tests = Vec::new();
     for record in records {
-        tests.push(test(&CsvRow {
+        let row = CsvRow {
             table: &table,
             record,
-        })?);
+        };
+        tests.push(test(&row, &velocity, unit)?);
     }
     if tests.is_empty() {
         let help = "write one row per test below the header, such as 184.3,yes";
@@ -56,10 +75,28 @@ fn file(name: &str, text: &str) -> Result<TestFile<Test>, Error> {
     })
 }
 
-fn test(row: &CsvRow<'_>) -> Result<Test, Box<InputError>> {
+/// Name and unit of the column of velocities: the first that is one, in whatever unit. The usual name where there is none.
+fn velocity(table: &CsvTable<'_>) -> (String, Option<ColumnUnit>) {
+    let of_name = |name: &String| {
+        // A former name is refused with the new one.
+        if Renamed::of(name).is_some() {
+            return None;
+        }
+        QUANTITIES.iter().find_map(|quantity| {
+            match ColumnName::of(name, quantity, ResultUnit::M_S) {
+                ColumnName::InUnit(unit) => Some((name.clone(), Some(unit))),
+                _ => None,
+            }
+        })
+    };
+    let mut found = table.header.iter().filter_map(of_name);
+    found.next().unwrap_or_else(|| (VELOCITY.to_owned(), None))
+}
+
+fn test(row: &CsvRow<'_>, column: &str, unit: Option<ColumnUnit>) -> Result<Test, Box<InputError>> {
     if row.record.len() != row.table.header.len() {
         return Err(row.error(
-            VELOCITY,
+            column,
             format!(
                 "the row has {} fields, and the first line names {}",
                 row.record.len(),
@@ -68,10 +105,11 @@ fn test(row: &CsvRow<'_>) -> Result<Test, Box<InputError>> {
             "a field with a comma in it stands in double quotes",
         ));
     }
-    let velocity = row.required_number(VELOCITY)?;
+    let number = row.required_number(column)?;
+    let velocity = unit.map_or(number, |unit| unit.to_si(number));
     if !(IMPACT_VELOCITY.min..=IMPACT_VELOCITY.max).contains(&velocity) {
         return Err(row.error(
-            VELOCITY,
+            column,
             format!("{} is out of range", Velocity::new(velocity)),
             format!(
                 "allowed: {} to {} m/s",
@@ -79,10 +117,15 @@ fn test(row: &CsvRow<'_>) -> Result<Test, Box<InputError>> {
             ),
         ));
     }
-    row.required(PERFORATED)?;
-    let perforated = row.word(PERFORATED, &[("yes", true), ("no", false)])?;
+    let result = row.required(PERFORATED)?.to_lowercase();
+    let known = RESULTS.iter().find(|(word, _)| *word == result);
+    let Some((_, perforated)) = known else {
+        let message = format!("unknown value `{}`", shorten(row.text(PERFORATED)));
+        let help = "allowed: yes or no, complete or partial, CP or PP, true or false, 1 or 0";
+        return Err(row.error(PERFORATED, message, help));
+    };
     Ok(Test {
         impact_velocity: velocity,
-        perforated: perforated.unwrap_or(false),
+        perforated: *perforated,
     })
 }

@@ -7,7 +7,7 @@ use percuss::{
 use percuss_report::table::Table;
 
 use crate::{
-    table::wrapped,
+    table::{blocks, wrapped},
     terminal::{bold, counted, width, wrap, yellow},
 };
 
@@ -92,7 +92,7 @@ fn parameters(calibration: &Calibration) -> String {
         .collect();
     let scatter = &calibration.scatter;
     rows.push(ParameterRow {
-        name: "relative scatter [%]".to_owned(),
+        name: "scatter [%]".to_owned(),
         prior: if scatter.estimated { "" } else { "given" }.to_owned(),
         best: rounded(100.0 * scatter.best),
         posterior: scatter.posterior.map(|m| Marginal {
@@ -121,7 +121,7 @@ fn parameters(calibration: &Calibration) -> String {
             })
         })
         .table();
-    wrapped(&table, 1..if sampled { 6 } else { 3 })
+    blocks(&table)
 }
 
 /// Names for a table: the last part of each key, unless two keys end alike.

@@ -58,8 +58,9 @@ With --tests FILE.csv V50, the velocity at which the probability of perforation
 is 50 %, is estimated from test results: by maximum likelihood (probit and
 logit) with the 95 % likelihood-ratio interval, and as the mean of equal numbers
 of the highest partial and the lowest complete penetrations (extremes). The file
-has one row per test and the columns impact_velocity_m_s and perforated (yes or
-no). The case is then optional.
+has one row per test and the columns impact_velocity_m_s, or another unit such
+as \"velocity (ft/s)\", and perforated (yes or no, or CP or PP). The case is then
+optional.
 
 With --out DIR a copy of the case (case-as-run.toml), limit.json, the tables
 limit.csv (one row per model) and curve.csv (one row per velocity), and the

@@ -190,6 +190,8 @@ pub fn reasons(limits: &Limits) -> Vec<String> {
         let reason = limit.reason.as_deref().unwrap_or("no reason given");
         let words = match limit.outcome {
             LimitOutcome::NotApplicable => format!("not applicable, because {reason}"),
+            // These reasons say what the outcome is.
+            LimitOutcome::NeverPerforates | LimitOutcome::AlwaysPerforates => reason.to_owned(),
             other => format!("{}: {reason}", other.describe()),
         };
         (limit.model, words)

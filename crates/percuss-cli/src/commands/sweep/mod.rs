@@ -56,6 +56,7 @@ Examples:
   percuss sweep my-sweep.toml --out rows --resume --axisymmetric 20
   percuss sweep status rows
   percuss sweep merge rows --out rows.parquet
+  percuss sweep merge rows --out rows.csv
   percuss sweep plot rows
 
 Exit codes: 0 ok, 2 bad input, 4 a file could not be read or written, 130 the
@@ -106,13 +107,13 @@ enum What {
     Plot(plot::Plot),
 }
 
-/// Join folders that hold all parts of a sweep into one Parquet file
+/// Join folders that hold all parts of a sweep into one file, Parquet or CSV
 #[derive(Debug, Args)]
 struct Merge {
     /// Folders of results
     #[arg(value_name = "DIR", required = true)]
     folders: Vec<PathBuf>,
-    /// File to write; it is replaced if it exists
+    /// File to write, CSV if its name ends with .csv; it is replaced if it exists
     #[arg(long, value_name = "FILE.parquet")]
     out: PathBuf,
     /// Unit system of the columns [default: mm, us, m/s, kN, MPa, J]
