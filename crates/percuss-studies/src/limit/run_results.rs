@@ -2,7 +2,7 @@
 
 use super::{
     Bracket, CurvePoint, LimitOutcome, ModelLimit, RearFace, fit_lambert_jonas,
-    search::{HasResidual, Passage, Sample, bracket},
+    search::{Passage, Sample, bracket},
     warnings,
 };
 use crate::{
@@ -24,12 +24,6 @@ pub(super) struct LimitRun {
     pub warnings: Vec<String>,
     /// How it ended without a result.
     pub absent: Option<LimitOutcome>,
-}
-
-impl HasResidual for LimitRun {
-    fn residual(&self) -> Option<f64> {
-        self.residual
-    }
 }
 
 impl LimitRun {

@@ -30,21 +30,14 @@ pub(super) struct Sample<T> {
     pub run: Option<T>,
 }
 
-/// What the search reads of a run.
-pub(super) trait HasResidual {
-    /// Velocity of the projectile behind the target [m/s].
-    fn residual(&self) -> Option<f64>;
-}
-
 /// Runs in the order of their velocities.
 pub(super) type Samples<T> = Vec<Sample<T>>;
 
-/// Tries the ends of equal intervals of a range, then narrows the lowest change from stopped to perforated: beside the limit that residual
-/// velocities point to, and in the middle where two runs have not halved the bracket.
+/// Tries the ends of equal intervals of a range, then narrows the lowest change from stopped to perforated.
 ///
 /// # Errors
 /// Those of `shoot`, which are not for reasons that a sample carries.
-pub(super) fn search<T: Send + HasResidual>(
+pub(super) fn search<T: Send>(
     range: Range,
     tolerance: Tolerance,
     intervals: u32,
@@ -54,22 +47,10 @@ pub(super) fn search<T: Send + HasResidual>(
         .into_par_iter()
         .map(|i| shoot(range.at(f64::from(i) / f64::from(intervals))))
         .collect::<Result<_, _>>()?;
-    let mut widths: Vec<f64> = Vec::new();
-    while widths.len() < MOST_RUNS {
-        let Some([low, high]) = wide_interval(&samples, tolerance) else {
+    for _ in 0..MOST_RUNS {
+        let Some(velocity) = next_velocity(&samples, tolerance) else {
             break;
         };
-        let is_slow = widths
-            .iter()
-            .nth_back(1)
-            .is_some_and(|before| high - low > 0.5 * before);
-        widths.push(high - low);
-        let beside = || beside_the_limit(&samples, [low, high], tolerance.at(high));
-        let velocity = match is_slow {
-            true => None,
-            false => beside(),
-        };
-        let velocity = velocity.unwrap_or(0.5 * (low + high));
         let at = samples.partition_point(|sample| sample.velocity < velocity);
         samples.insert(at, shoot(velocity)?);
     }
@@ -89,62 +70,23 @@ pub(super) fn bracket<T>(samples: &[Sample<T>]) -> Option<(usize, usize)> {
     None
 }
 
-/// Ends of the interval to narrow [m/s], unless that is narrow enough. Where undecided runs lie in the bracket, the intervals at its two
-/// ends are narrowed.
-fn wide_interval<T>(samples: &[Sample<T>], tolerance: Tolerance) -> Option<[f64; 2]> {
+/// Middle of the interval to narrow, unless that is narrow enough. Where undecided runs lie in the bracket, the intervals at its
+/// two ends are narrowed.
+fn next_velocity<T>(samples: &[Sample<T>], tolerance: Tolerance) -> Option<f64> {
     let (below, above) = bracket(samples)?;
-    let ends = [[below, below + 1], [above - 1, above]];
-    let ends = ends.map(|interval| interval.map(|i| samples[i].velocity));
-    ends.into_iter().find(|[low, high]| {
+    let ends = [(below, below + 1), (above - 1, above)];
+    let narrow = |(low, high): (usize, usize)| {
+        let (low, high) = (samples[low].velocity, samples[high].velocity);
         let middle = 0.5 * (low + high);
-        high - low > tolerance.at(*high) && *low < middle && middle < *high
-    })
-}
-
-/// A velocity within the tolerance [m/s] of the limit that the two lowest perforated runs point to: above it, then below. `None` where
-/// they point out of the interval.
-///
-/// Above a limit the squares of residual velocities rise about linearly with the square of the impact velocity [recht1963].
-fn beside_the_limit<T: HasResidual>(
-    samples: &[Sample<T>],
-    [low, high]: [f64; 2],
-    tolerance: f64,
-) -> Option<f64> {
-    let (_, above) = bracket(samples)?;
-    let [first, second] = samples.get(above..above + 2)? else {
-        return None;
+        let wide = high - low > tolerance.at(high) && low < middle && middle < high;
+        wide.then_some(middle)
     };
-    let squares = |sample: &Sample<T>| {
-        let residual = sample.run.as_ref()?.residual()?;
-        Some((sample.velocity.powi(2), residual.max(0.0).powi(2)))
-    };
-    let ((x1, y1), (x2, y2)) = (squares(first)?, squares(second)?);
-    let square = x1 - y1 * (x2 - x1) / (y2 - y1);
-    let limit = (y2 > y1 && square > 0.0).then(|| square.sqrt())?;
-    // Two runs on either side, this far from the limit, enclose it within the tolerance.
-    let margin = 0.45 * tolerance;
-    let beside = match limit + margin < high {
-        true => limit + margin,
-        false => limit - margin,
-    };
-    (low < beside && beside < high).then_some(beside)
+    ends.into_iter().find_map(narrow)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    impl HasResidual for () {
-        fn residual(&self) -> Option<f64> {
-            None
-        }
-    }
-
-    impl HasResidual for f64 {
-        fn residual(&self) -> Option<f64> {
-            Some(*self)
-        }
-    }
 
     fn searched(passage: impl Fn(f64) -> Passage + Sync) -> Samples<()> {
         let range = Range {
@@ -161,7 +103,7 @@ mod tests {
         .unwrap()
     }
 
-    fn velocities<T>(samples: &Samples<T>) -> Option<(f64, f64)> {
+    fn velocities(samples: &Samples<()>) -> Option<(f64, f64)> {
         bracket(samples).map(|(low, high)| (samples[low].velocity, samples[high].velocity))
     }
 
@@ -182,36 +124,6 @@ mod tests {
             // 17 of the scan and 8 halvings of 100 m/s.
             assert_eq!(samples.len(), 25);
             assert!(samples.is_sorted_by(|a, b| a.velocity < b.velocity));
-        }
-    }
-
-    /// Residual velocities of the form of Lambert and Jonas: those of Recht and Ipson (p = 2) need two runs beside the limit. A jump at the
-    /// limit points below it.
-    #[test]
-    fn residual_velocities_lead_to_the_limit() {
-        for (p, jump, most) in [(2.0, 0.0, 2), (1.6, 0.0, 8), (3.7, 0.0, 8), (2.0, 90.0, 12)] {
-            for limit in [0.1, 184.5, 699.98, 1499.9] {
-                let range = Range {
-                    from: 0.0,
-                    to: 1600.0,
-                };
-                let residual =
-                    |v: f64| jump + 0.8 * (v.powf(p) - f64::powf(limit, p)).powf(1.0 / p);
-                let shoot = |velocity: f64| {
-                    Ok(Sample {
-                        velocity,
-                        passage: over(limit)(velocity),
-                        run: (velocity > limit).then(|| residual(velocity)),
-                    })
-                };
-                let samples = search(range, Tolerance::Absolute(0.1), 16, &shoot).unwrap();
-                let (low, high) = velocities(&samples).unwrap();
-                assert!(low <= limit && limit < high, "{limit}: {low} to {high}");
-                assert!(high - low <= 0.1);
-                // Halving alone takes ten.
-                let runs = samples.len() - 17;
-                assert!(runs <= most, "{p} {jump} {limit}: {runs}");
-            }
         }
     }
 
