@@ -9,6 +9,8 @@ mod motion;
 #[cfg(test)]
 mod tests;
 
+use std::{cell::RefCell, collections::VecDeque};
+
 use self::{
     flow::Flow,
     motion::{Impact, Perforation},
@@ -16,7 +18,10 @@ use self::{
 use super::plate_impact::{PlateImpact, plate_result, refuse, taken_as_rigid};
 use crate::{
     Error, Refusal, Scenario,
-    material::{cavity_expansion_pressure, cylindrical_cavity_pressure, tensile_strength},
+    material::{
+        Material, cavity_expansion_pressure, cylindrical_cavity_pressure, tensile_strength,
+    },
+    options::PowerBalanceOptions,
     outcome::{BandQuantity, Detail, Outcome, RunResult, Termination},
     problem::Nose,
     regime::{ProjectileRegime, TargetKind},
@@ -75,6 +80,46 @@ fn order_of_limit(case: &PlateImpact<'_>) -> Option<f64> {
     Some((2.0 * work / case.mass).sqrt())
 }
 
+/// What a ballistic limit depends on.
+#[derive(Debug, Clone, PartialEq)]
+struct LimitCase {
+    plate: Material,
+    thickness: f64,
+    mass: f64,
+    diameter: f64,
+    nose: Nose,
+    options: PowerBalanceOptions,
+}
+
+/// Ballistic limits that are remembered.
+const MOST_KNOWN: usize = 8;
+
+thread_local! {
+    /// The last ballistic limits [m/s], the latest first.
+    static KNOWN: RefCell<VecDeque<(LimitCase, f64)>> = const { RefCell::new(VecDeque::new()) };
+}
+
+/// Ballistic limit [m/s], remembered: it is the same at every impact velocity, and takes as long as a dozen runs.
+fn ballistic_limit(scenario: &Scenario, case: &PlateImpact<'_>, impact: &Impact) -> f64 {
+    let of = LimitCase {
+        plate: case.plate.clone(),
+        thickness: case.thickness,
+        mass: case.mass,
+        diameter: case.diameter,
+        nose: scenario.projectile.nose,
+        options: scenario.options.power_balance.clone(),
+    };
+    KNOWN.with_borrow_mut(|known| {
+        if let Some((_, limit)) = known.iter().find(|(other, _)| *other == of) {
+            return *limit;
+        }
+        let limit = impact.ballistic_limit(order_of_limit(case).unwrap_or(case.speed));
+        known.push_front((of, limit));
+        known.truncate(MOST_KNOWN);
+        limit
+    })
+}
+
 impl Model for PowerBalance {
     fn name(&self) -> &'static str {
         "power_balance"
@@ -120,7 +165,7 @@ impl Model for PowerBalance {
             let reason = "it takes one plate of a metal that flows";
             return Err(refuse(self.name(), reason));
         };
-        let limit = impact.ballistic_limit(order_of_limit(&case).unwrap_or(case.speed));
+        let limit = ballistic_limit(scenario, &case, &impact);
         let mut result = plate_result(self.name(), "least power", case.speed, limit, 0.0);
         if case.speed > 0.0 {
             let run = impact.case(case.speed, control.record);

@@ -52,6 +52,8 @@ pub(super) struct MotionState {
     pub force: f64,
     /// Band at the rim of the plug.
     pub rim: Rim,
+    /// Radius of the metal that moves around the hole of a pointed or round nose, over that of the hole.
+    pub extent: Option<f64>,
     /// Damage of the band.
     pub damage: f64,
     /// Plastic work of the local field [J].
@@ -207,10 +209,11 @@ impl Impact {
         let duration = (START * longest + GROWTH * now.time).min(longest);
         let mut next = *now;
         let forces = self.forces(now, duration, &mut next);
+        let stress = self.dish_stress(now);
         if self.bulging && self.bulges(now, &forces) {
-            next.edge = self.best_edge(now, &forces, duration);
+            next.edge = self.best_edge(now, &forces, stress, duration);
         }
-        let bodies = self.bodies(now, &forces, next.edge, duration);
+        let bodies = self.bodies(now, &forces, next.edge, stress, duration);
         let count = self.count();
         let taken = step(&bodies[..count]);
         self.account(now, &mut next, &forces, &bodies, &taken, duration);
@@ -222,12 +225,23 @@ impl Impact {
         1 + usize::from(self.flat()) + usize::from(self.bulging)
     }
 
+    /// Flow stress of the dish before a step [Pa].
+    fn dish_stress(&self, now: &MotionState) -> f64 {
+        if !self.bulging {
+            return 0.0;
+        }
+        let dish = self.dish();
+        let (strain, rate) = dish.strain(now.edge, now.deflection, now.velocities[2]);
+        self.flow.stress(strain, rate)
+    }
+
     /// Bodies in a row at the velocities before a step; the dish has the momentum of its old field in its new one.
     fn bodies(
         &self,
         now: &MotionState,
         forces: &Forces,
         edge: f64,
+        dish_stress: f64,
         duration: f64,
     ) -> [Body; BODIES] {
         let local = (forces.local + forces.inertial) * duration;
@@ -252,10 +266,8 @@ impl Impact {
         if self.bulging {
             let dish = self.dish();
             let mass = dish.mass(edge);
-            let (strain, rate) = dish.strain(now.edge, now.deflection, now.velocities[2]);
-            let stress = self.flow.stress(strain, rate);
             let deflection = now.deflection + 0.5 * duration * now.velocities[2];
-            let resistance = dish.resistance(edge, deflection, stress) * duration;
+            let resistance = dish.resistance(edge, deflection, dish_stress) * duration;
             bodies[count] = Body {
                 mass,
                 velocity: now.velocities[2] * dish.common(now.edge, edge) / mass,
@@ -279,12 +291,12 @@ impl Impact {
     }
 
     /// The radius of the dish at which the step needs the least power, kinetic and plastic.
-    fn best_edge(&self, now: &MotionState, forces: &Forces, duration: f64) -> f64 {
+    fn best_edge(&self, now: &MotionState, forces: &Forces, stress: f64, duration: f64) -> f64 {
         let dish = self.dish();
         let before = 0.5 * dish.mass(now.edge) * now.velocities[2].powi(2);
         let needed = |log: f64| {
             let edge = dish.rim * (1.0 + log.exp());
-            let bodies = self.bodies(now, forces, edge, duration);
+            let bodies = self.bodies(now, forces, edge, stress, duration);
             let bodies = &bodies[..self.count()];
             let taken = step(bodies);
             let last = bodies[bodies.len() - 1];

@@ -226,16 +226,16 @@ fn a_hole_in_a_thick_plate_has_the_pressure_of_a_cavity() {
     let flow = flow(PERFECT);
     let mut before = 0.0;
     for thickness in [0.001, 0.01, 0.1, 1.0, 10.0] {
-        let hole = hole(&flow, 0.01, thickness, 10.0);
+        let hole = hole(&flow, 0.01, thickness, 10.0, None);
         assert!(hole.pressure > before && hole.extent > 1.0, "{hole:?}");
         before = hole.pressure;
     }
     let thick = of(PERFECT, NOSES[1], 5000.0, "");
-    let (force, _) = thick.opening(1.0, 0.0);
+    let (force, _) = thick.opening(1.0, 0.0, &mut None);
     let exact = thick.cavity_pressures[1] * PI * 1e-4;
     assert!((force / exact - 1.0).abs() < 1e-12, "{force} {exact}");
     // Of an unbounded field, ln(R/c) − 3/4.
-    let wide = hole(&flow, 1e-5, 10.0, 0.0);
+    let wide = hole(&flow, 1e-5, 10.0, 0.0, None);
     assert!(
         (wide.inertia - (wide.extent.ln() - 0.75)).abs() < 1e-4 * wide.inertia,
         "{wide:?}"
