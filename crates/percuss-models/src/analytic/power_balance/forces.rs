@@ -68,19 +68,17 @@ impl Impact {
         rim(&self.flow, &slip)
     }
 
-    /// Damage of the band by the record's law at no mean stress; it has failed where its metal has become weaker by heat than it was.
+    /// Damage of the band by the record's law at no mean stress.
     fn damage_band(&self, now: &MotionState, next: &mut MotionState) {
-        let strain = next.rim.strain;
-        if self.flow.peak_strain.is_some_and(|peak| strain > peak) {
-            next.damage = 1.0;
-        } else if let Some(law) = &self.damage {
-            let state = DamageState {
-                triaxiality: 0.0,
-                strain_rate: next.rim.rate,
-                temperature: self.flow.temperature(strain),
-            };
-            next.damage = law.grow(0.0, &state, strain).max(now.damage);
-        }
+        let Some(law) = &self.damage else {
+            return;
+        };
+        let state = DamageState {
+            triaxiality: 0.0,
+            strain_rate: next.rim.rate,
+            temperature: self.flow.temperature(next.rim.strain),
+        };
+        next.damage = law.grow(0.0, &state, next.rim.strain).max(now.damage);
     }
 
     /// Plastic and inertial force on a flat face [N] that sinks at a relative speed [m/s].

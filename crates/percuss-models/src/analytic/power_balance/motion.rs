@@ -4,7 +4,7 @@ use super::{
     fields::{Dish, Rim, least},
     flow::Flow,
     forces::Forces,
-    links::{BODIES, Body, Step, potential, step},
+    links::{BODIES, Body, Row, Step, potential, step},
 };
 use crate::{material::PreparedDamage, problem::Nose};
 
@@ -27,6 +27,8 @@ pub(super) struct Impact {
     pub damage: Option<PreparedDamage>,
     /// Pressure of a spherical and a cylindrical cavity in the plate's metal [Pa].
     pub cavity_pressures: [f64; 2],
+    /// Force that the elastic plate opposes to a velocity of its middle [N s/m]: `8 √(ρ h D)`.
+    pub impedance: f64,
     /// Whether the flat face sinks into the plate.
     pub indentation: bool,
     /// Whether the plate around the rim dishes.
@@ -44,6 +46,10 @@ pub(super) struct MotionState {
     pub slip: f64,
     /// Deflection of the plate at the rim [m].
     pub deflection: f64,
+    /// Elastic deflection [m].
+    pub flexure: f64,
+    /// Its rate [m/s].
+    pub flexing: f64,
     /// Radius b out to which the plate moves [m].
     pub edge: f64,
     /// Velocities of projectile, plug and rim of the plate [m/s].
@@ -66,6 +72,8 @@ pub(super) struct MotionState {
     pub rim_work: f64,
     /// Plastic work of the dish [J].
     pub dish_work: f64,
+    /// Energy of the elastic waves in the plate [J].
+    pub wave_work: f64,
     /// Kinetic energy lost where bodies became one, and to changes of the dish's field [J].
     pub capture: f64,
     /// Impulse that the plate at rest took [N s].
@@ -176,7 +184,7 @@ impl Impact {
         for _ in 0..MOST_STEPS {
             now = self.advance(&now, speed);
             run.peak_force = run.peak_force.max(now.force);
-            self.note_stages(&mut run.stages, &now, speed);
+            self.note_stages(&mut run.stages, &now);
             if record {
                 run.moments.push(now);
             }
@@ -189,9 +197,9 @@ impl Impact {
         run
     }
 
-    fn note_stages(&self, stages: &mut [Option<f64>; 3], now: &MotionState, speed: f64) {
+    fn note_stages(&self, stages: &mut [Option<f64>; 3], now: &MotionState) {
         let began = [
-            now.velocities[2] > 1e-6 * speed,
+            now.deflection > 1e-6 * self.thickness,
             now.slip > 1e-6 * self.thickness,
             now.damage >= 1.0,
         ];
@@ -215,14 +223,34 @@ impl Impact {
         }
         let bodies = self.bodies(now, &forces, next.edge, stress, duration);
         let count = self.count();
-        let taken = step(&bodies[..count]);
+        let taken = step(self.row(&bodies[..count], duration));
         self.account(now, &mut next, &forces, &bodies, &taken, duration);
         next
+    }
+
+    /// A row of bodies on the elastic plate, or on a rigid one where it does not bend.
+    fn row<'a>(&self, bodies: &'a [Body], duration: f64) -> Row<'a> {
+        let mobility = match self.bulging {
+            true => 1.0 / (self.impedance * duration),
+            false => 0.0,
+        };
+        Row { bodies, mobility }
     }
 
     /// Number of bodies that can move.
     fn count(&self) -> usize {
         1 + usize::from(self.flat()) + usize::from(self.bulging)
+    }
+
+    /// Plastic part of the velocity of the dish [m/s].
+    fn dishing(&self, now: &MotionState) -> f64 {
+        let plastic = now.velocities[2] - now.flexing;
+        // Rounding.
+        if plastic.abs() > 1e-9 * now.velocities[2].abs() {
+            plastic
+        } else {
+            0.0
+        }
     }
 
     /// Flow stress of the dish before a step [Pa].
@@ -231,7 +259,7 @@ impl Impact {
             return 0.0;
         }
         let dish = self.dish();
-        let (strain, rate) = dish.strain(now.edge, now.deflection, now.velocities[2]);
+        let (strain, rate) = dish.strain(now.edge, now.deflection, self.dishing(now));
         self.flow.stress(strain, rate)
     }
 
@@ -266,7 +294,7 @@ impl Impact {
         if self.bulging {
             let dish = self.dish();
             let mass = dish.mass(edge);
-            let deflection = now.deflection + 0.5 * duration * now.velocities[2];
+            let deflection = now.deflection + 0.5 * duration * self.dishing(now);
             let resistance = dish.resistance(edge, deflection, dish_stress) * duration;
             bodies[count] = Body {
                 mass,
@@ -287,7 +315,7 @@ impl Impact {
         let dish = self.dish();
         let widest = dish.rim * (1.0 + EDGES.1);
         let least = dish.resistance(widest, now.deflection, self.flow.stress(0.0, 0.0));
-        now.velocities[2] > 0.0 || push > least
+        self.dishing(now) > 0.0 || push > least
     }
 
     /// The radius of the dish at which the step needs the least power, kinetic and plastic.
@@ -297,14 +325,14 @@ impl Impact {
         let needed = |log: f64| {
             let edge = dish.rim * (1.0 + log.exp());
             let bodies = self.bodies(now, forces, edge, stress, duration);
-            let bodies = &bodies[..self.count()];
-            let taken = step(bodies);
-            let last = bodies[bodies.len() - 1];
-            before - 0.5 * last.mass * last.velocity.powi(2) + potential(bodies, &taken)
+            let row = self.row(&bodies[..self.count()], duration);
+            let taken = step(row);
+            let last = bodies[row.bodies.len() - 1];
+            before - 0.5 * last.mass * last.velocity.powi(2) + potential(row, &taken)
         };
         let (mut low, mut high) = (EDGES.0.ln(), EDGES.1.ln());
         let last = (now.edge / dish.rim - 1.0).ln();
-        if now.velocities[2] > 0.0 {
+        if self.dishing(now) > 0.0 {
             (low, high) = (
                 (last - EDGE_CHANGE).max(low),
                 (last + EDGE_CHANGE).min(high),
@@ -356,8 +384,23 @@ impl Impact {
         next.impulse += taken.impulses[last - 1];
         if self.bulging {
             next.velocities[2] = taken.velocities[last];
-            next.deflection = now.deflection + duration * mean(last);
-            next.dish_work += taken.impulses[last] * mean(last);
+            let impulse = taken.impulses[last];
+            let yields = impulse.abs() >= bodies[last].largest * (1.0 - 1e-12);
+            // Of a plate that does not yield, all motion is elastic.
+            let elastic = if yields {
+                impulse / (self.impedance * duration)
+            } else {
+                mean(last)
+            };
+            next.flexing = if yields {
+                elastic
+            } else {
+                taken.velocities[last]
+            };
+            next.flexure += duration * elastic;
+            next.wave_work += impulse * elastic;
+            next.deflection += duration * (mean(last) - elastic);
+            next.dish_work += impulse * (mean(last) - elastic);
             let dish = self.dish();
             let old = dish.mass(now.edge) * now.velocities[2].powi(2);
             next.capture += 0.5 * (old - bodies[last].mass * bodies[last].velocity.powi(2));
