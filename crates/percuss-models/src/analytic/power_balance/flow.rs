@@ -8,6 +8,8 @@ use crate::{
 /// Strain up to which the temperature is tabulated; beyond it the temperature stays.
 const LARGEST_STRAIN: f64 = 50.0;
 const NODES: u32 = 400;
+/// Nodes of a stress that depends on the strain alone: interpolation is right to 1e-5.
+const STRESS_NODES: u32 = 4000;
 /// Heat that warms a metal to its melting point over Young's modulus: the median of the library's 21 metals with thermal data, of which
 /// aluminium alloys have 0.021, steels 0.026, copper alloys 0.028 and titanium alloys 0.032. By Lindemann's rule it is about the same for all.
 const MELTING_HEAT: f64 = 0.0267;
@@ -20,6 +22,8 @@ pub(super) struct Flow {
     temperatures: Vec<f64>,
     /// Parts of the strength that heat leaves at these strains; empty for a law that depends on temperature by itself.
     strengths: Vec<f64>,
+    /// Flow stresses at the strains `LARGEST_STRAIN (i/STRESS_NODES)²` [Pa], where they depend on the strain alone.
+    stresses: Vec<f64>,
 }
 
 impl Flow {
@@ -44,7 +48,7 @@ impl Flow {
         let mut work = 0.0;
         let mut strengths = if softens { vec![1.0] } else { Vec::new() };
         for i in 0..NODES {
-            let (from, to) = (strain_of_node(i), strain_of_node(i + 1));
+            let (from, to) = (strain_of_node(i, NODES), strain_of_node(i + 1, NODES));
             let state = FlowState {
                 plastic_strain: (from + to) / 2.0,
                 strain_rate: nominal_rate,
@@ -65,11 +69,17 @@ impl Flow {
                 strengths.push((-work / melting).exp());
             }
         }
-        Self {
+        let mut flow = Self {
             law,
             temperatures,
             strengths,
+            stresses: Vec::new(),
+        };
+        if flow.law.depends_on_strain_only() {
+            let stress = |node| flow.stress(strain_of_node(node, STRESS_NODES), nominal_rate);
+            flow.stresses = (0..=STRESS_NODES).map(stress).collect();
         }
+        flow
     }
 
     /// Temperature at a plastic strain [K].
@@ -79,6 +89,9 @@ impl Flow {
 
     /// Flow stress at a plastic strain and a strain rate [1/s] [Pa].
     pub fn stress(&self, strain: f64, rate: f64) -> f64 {
+        if !self.stresses.is_empty() {
+            return at_strain(&self.stresses, strain);
+        }
         let state = FlowState {
             plastic_strain: strain.clamp(0.0, LARGEST_STRAIN),
             strain_rate: rate.max(0.0),
@@ -120,15 +133,15 @@ fn hardens(law: &dyn PreparedStrength, temperature: f64) -> bool {
 
 /// Value at a plastic strain of a table over the nodes.
 fn at_strain(table: &[f64], strain: f64) -> f64 {
-    let place = f64::from(NODES) * (strain.max(0.0) / LARGEST_STRAIN).sqrt();
+    let last = table.len() - 1;
+    let place = last as f64 * (strain.max(0.0) / LARGEST_STRAIN).sqrt().min(1.0);
     // The place is at most the last node.
-    let place = place.min(f64::from(NODES));
     let node = place as usize;
-    let below = table.get(node).copied().unwrap_or(table[0]);
-    let above = table.get(node + 1).copied().unwrap_or(below);
+    let below = table[node];
+    let above = table[(node + 1).min(last)];
     below + (place - node as f64) * (above - below)
 }
 
-fn strain_of_node(node: u32) -> f64 {
-    LARGEST_STRAIN * (f64::from(node) / f64::from(NODES)).powi(2)
+fn strain_of_node(node: u32, nodes: u32) -> f64 {
+    LARGEST_STRAIN * (f64::from(node) / f64::from(nodes)).powi(2)
 }
