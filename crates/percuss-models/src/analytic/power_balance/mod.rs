@@ -15,7 +15,10 @@ use self::{
     flow::Flow,
     motion::{Impact, Perforation},
 };
-use super::plate_impact::{PlateImpact, plate_result, refuse, taken_as_rigid};
+use super::{
+    plate_cavity::PLATES,
+    plate_impact::{PlateImpact, plate_result, refuse, taken_as_rigid},
+};
 use crate::{
     Error, Refusal, Scenario,
     material::{
@@ -75,7 +78,7 @@ fn impact(scenario: &Scenario, case: &PlateImpact<'_>) -> Option<Impact> {
     })
 }
 
-/// `8 √(ρ h D)`, `D = E h³/12(1 − ν²)`: force over velocity at the middle of an infinite elastic plate [N s/m].
+/// `8 √(ρ h D)`, `D = E h³/12(1 − ν²)`: force over velocity at the middle of an infinite elastic plate [N s/m] \[zener1941\].
 fn flexural_impedance(plate: &Material, thickness: f64) -> f64 {
     let modulus = plate.youngs_modulus.si() / (1.0 - plate.poissons_ratio.powi(2));
     let stiffness = modulus * thickness.powi(3) / 12.0;
@@ -145,10 +148,16 @@ impl Model for PowerBalance {
                 targets: TargetKind::PLATES,
                 noses: NoseKind::ALL,
                 ranges: RANGES,
-                fitted_to: &[FittedTo {
-                    sources: &["borvik2002a"],
-                    because: "the rule that the band of a plug keeps its width was found on this limit; no number was fitted",
-                }],
+                fitted_to: &[
+                    FittedTo {
+                        sources: &["borvik2002a"],
+                        because: "the rule that the band of a plug keeps its width was found on this limit; no number was fitted",
+                    },
+                    FittedTo {
+                        sources: PLATES,
+                        because: "elastic bending and softening by heat were derived with errors at limits of the REL V50 database in view; no number was fitted",
+                    },
+                ],
                 notes: &[
                     "normal impact; the plate has no edge, and bends elastically without reflections",
                     "hardening laws without temperature soften by heat, by a melting heat of 0.0267 of Young's modulus where the record has none",
