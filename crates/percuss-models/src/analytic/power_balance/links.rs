@@ -38,7 +38,10 @@ enum Link {
     Parts,
 }
 
-const STATES: [Link; 3] = [Link::Yields, Link::Holds, Link::Parts];
+/// Ways of a link, the most frequent first.
+const STATES: [Link; 3] = [Link::Holds, Link::Yields, Link::Parts];
+/// Ways that are tried first, then all: few bodies part.
+const TRIED: [usize; 2] = [2, 3];
 /// Differences of velocity and impulse that count as none, as a part of the largest.
 const NOTHING: f64 = 1e-12;
 
@@ -53,12 +56,15 @@ pub(super) fn step(row: Row<'_>) -> Step {
         .iter()
         .fold(0.0_f64, |most, body| most.max(body.velocity.abs()));
     let mut best = (f64::INFINITY, Step::default());
-    for choice in 0..3_usize.pow(count as u32) {
+    let choices = TRIED
+        .into_iter()
+        .flat_map(|ways| (0..ways.pow(count as u32)).map(move |choice| (ways, choice)));
+    for (ways, choice) in choices {
         let mut links = [Link::Yields; BODIES];
         let mut rest = choice;
         for link in links.iter_mut().take(count) {
-            *link = STATES[rest % 3];
-            rest /= 3;
+            *link = STATES[rest % ways];
+            rest /= ways;
         }
         let known = |i: usize| match links[i] {
             Link::Yields => bodies[i].largest,
