@@ -50,6 +50,8 @@ pub(super) struct MotionState {
     pub flexure: f64,
     /// Its rate [m/s].
     pub flexing: f64,
+    /// Whether all bodies move as one with the elastic plate.
+    pub held: bool,
     /// Radius b out to which the plate moves [m].
     pub edge: f64,
     /// Velocities of projectile, plug and rim of the plate [m/s].
@@ -103,6 +105,8 @@ const START: f64 = 1e-4;
 const GROWTH: f64 = 0.2;
 /// Part of the impact velocity below which the time step no longer grows.
 const SLOW: f64 = 0.03;
+/// Step over the time m/Z in which an elastic plate stops what moves as one with it.
+const DECAY: f64 = 0.004;
 /// Bound on the number of steps; every run ends before it.
 const MOST_STEPS: u32 = 200_000;
 /// Radius of the dish over that of the rim, less 1: where it is looked for.
@@ -213,28 +217,34 @@ impl Impact {
     /// The state a time step later.
     fn advance(&self, now: &MotionState, speed: f64) -> MotionState {
         let fastest = now.velocities[0].abs().max(SLOW * speed);
-        let longest = self.thickness / (STEPS * fastest);
+        let mut longest = self.thickness / (STEPS * fastest);
+        if self.bulging && now.held {
+            longest = longest.max(DECAY * self.mass / self.impedance);
+        }
         let duration = (START * longest + GROWTH * now.time).min(longest);
         let mut next = *now;
         let forces = self.forces(now, duration, &mut next);
         let stress = self.dish_stress(now);
-        if self.bulging && self.bulges(now, &forces) {
+        if self.bulging && !now.held && self.bulges(now, &forces) {
             next.edge = self.best_edge(now, &forces, stress, duration);
         }
         let bodies = self.bodies(now, &forces, next.edge, stress, duration);
         let count = self.count();
-        let taken = step(self.row(&bodies[..count], duration));
+        let taken = step(Row {
+            bodies: &bodies[..count],
+            mobility: self.mobility(now, duration),
+        });
         self.account(now, &mut next, &forces, &bodies, &taken, duration);
         next
     }
 
-    /// A row of bodies on the elastic plate, or on a rigid one where it does not bend.
-    fn row<'a>(&self, bodies: &'a [Body], duration: f64) -> Row<'a> {
-        let mobility = match self.bulging {
+    /// Velocity of the elastic plate over the impulse of a step [1/kg]. Linear bending ends at a deflection of one thickness: beyond it, and
+    /// where it does not bend at all, the plate is rigid.
+    fn mobility(&self, now: &MotionState, duration: f64) -> f64 {
+        match self.bulging && now.flexure.abs() < self.thickness {
             true => 1.0 / (self.impedance * duration),
             false => 0.0,
-        };
-        Row { bodies, mobility }
+        }
     }
 
     /// Number of bodies that can move.
@@ -321,11 +331,15 @@ impl Impact {
     /// The radius of the dish at which the step needs the least power, kinetic and plastic.
     fn best_edge(&self, now: &MotionState, forces: &Forces, stress: f64, duration: f64) -> f64 {
         let dish = self.dish();
+        let mobility = self.mobility(now, duration);
         let before = 0.5 * dish.mass(now.edge) * now.velocities[2].powi(2);
         let needed = |log: f64| {
             let edge = dish.rim * (1.0 + log.exp());
             let bodies = self.bodies(now, forces, edge, stress, duration);
-            let row = self.row(&bodies[..self.count()], duration);
+            let row = Row {
+                bodies: &bodies[..self.count()],
+                mobility,
+            };
             let taken = step(row);
             let last = bodies[row.bodies.len() - 1];
             before - 0.5 * last.mass * last.velocity.powi(2) + potential(row, &taken)
@@ -388,10 +402,14 @@ impl Impact {
             let yields = impulse.abs() >= bodies[last].largest * (1.0 - 1e-12);
             // Of a plate that does not yield, all motion is elastic.
             let elastic = if yields {
-                impulse / (self.impedance * duration)
+                self.mobility(now, duration) * impulse
             } else {
                 mean(last)
             };
+            next.held = !yields
+                && taken.velocities[..=last]
+                    .iter()
+                    .all(|v| *v == taken.velocities[0]);
             next.flexing = if yields {
                 elastic
             } else {

@@ -331,13 +331,13 @@ fn a_law_without_temperature_softens_to_the_melting_point() {
 fn an_elastic_plate_takes_the_momentum_of_a_slow_impact() {
     for nose in NOSES {
         let impact = of(PERFECT, nose, 2.0, "");
-        let speed = 10.0;
+        let speed = 3.0;
         let run = impact.case(speed, false);
         let stiffness = 200e9 * 0.002_f64.powi(3) / 12.0 / (1.0 - 0.09);
         let impedance = 8.0 * (7850.0 * 0.002 * stiffness).sqrt();
         let exact = 0.197 * speed / impedance;
         let found = run.last.flexure;
-        assert!((found / exact - 1.0).abs() < 0.01, "{nose} {found} {exact}");
+        assert!((found / exact - 1.0).abs() < 0.02, "{nose} {found} {exact}");
         assert!(run.last.deflection == 0.0 && !run.perforated, "{nose}");
     }
 }
