@@ -28,7 +28,7 @@ const HARD: f64 = 300.0;
 const HARD_STRENGTH: f64 = 1.0e9;
 
 /// Sources of the REL V50 database, whose limits were in view when the form of the inertial pressure was chosen.
-const PLATES: &[&str] = &[
+pub(super) const PLATES: &[&str] = &[
     "cheeseman2008",
     "forrestal2014",
     "forrestal2021",

@@ -96,6 +96,31 @@ pub(super) fn least(
     if at_left < at_right { left } else { right }
 }
 
+/// Distance of the places by which a minimum is refined; the parabola's error is of the fourth power.
+const BESIDE: f64 = 0.02;
+/// Bound on the moves to a minimum.
+const MOST_MOVES: u32 = 400;
+
+/// Place of the least value of a function near a place: the vertex of a parabola through three places that enclose it.
+fn least_near(place: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let (mut middle, mut here) = (place, value(place));
+    let (mut left, mut right) = (value(middle - BESIDE), value(middle + BESIDE));
+    for _ in 0..MOST_MOVES {
+        if left < here {
+            (middle, right, here) = (middle - BESIDE, here, left);
+            left = value(middle - BESIDE);
+        } else if right < here {
+            (middle, left, here) = (middle + BESIDE, here, right);
+            right = value(middle + BESIDE);
+        } else {
+            break;
+        }
+    }
+    let bend = left - 2.0 * here + right;
+    let aside = 0.5 * BESIDE * (left - right) / bend.max(f64::MIN_POSITIVE);
+    middle + aside.clamp(-0.5 * BESIDE, 0.5 * BESIDE)
+}
+
 /// Growth of a hole through the plate, whose metal thickens it out to a radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Hole {
@@ -115,7 +140,15 @@ const PANELS: u32 = 12;
 ///
 /// `v_r = ċ c (R² − r²)/(r (R² − c²))` and `v_z = 2 z ċ c/(R² − c²)`: no volume changes, nothing moves inwards from R, where the metal
 /// shears over the thickness. The strain of a ring is that of a hole grown from nothing in plane strain, `−ln(1 − c²/r²)/√3`.
-pub(super) fn hole(flow: &Flow, radius: f64, thickness: f64, growth: f64) -> Hole {
+///
+/// `near`: radius of the moving metal over that of the hole in a similar field, where one is known.
+pub(super) fn hole(
+    flow: &Flow,
+    radius: f64,
+    thickness: f64,
+    growth: f64,
+    near: Option<f64>,
+) -> Hole {
     let pressure = |extent: f64| {
         let square = extent * extent;
         let span = extent.ln() / f64::from(PANELS);
@@ -133,10 +166,12 @@ pub(super) fn hole(flow: &Flow, radius: f64, thickness: f64, growth: f64) -> Hol
         let edge = flow.stress(0.0, growth / radius) / SQRT_3;
         volume + edge * extent * thickness / (2.0 * radius * (square - 1.0))
     };
-    let extent = least(1e-3_f64.ln(), WIDEST_HOLE.ln(), 20, |x| {
-        pressure(1.0 + x.exp())
-    });
-    let extent = 1.0 + extent.exp();
+    let gap = |log: f64| pressure(1.0 + log.exp());
+    let near = near.map_or_else(
+        || least(1e-3_f64.ln(), WIDEST_HOLE.ln(), 20, gap),
+        |extent| (extent - 1.0).ln(),
+    );
+    let extent = 1.0 + least_near(near, gap).exp();
     Hole {
         pressure: pressure(extent),
         extent,

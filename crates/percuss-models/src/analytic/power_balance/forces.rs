@@ -43,7 +43,8 @@ impl Impact {
             }
         } else {
             let relative = (projectile - dish).max(0.0);
-            let (local, inertial) = self.opening(now.sunk + 0.5 * duration * relative, relative);
+            let sunk = now.sunk + 0.5 * duration * relative;
+            let (local, inertial) = self.opening(sunk, relative, &mut next.extent);
             Forces {
                 local,
                 inertial,
@@ -67,19 +68,17 @@ impl Impact {
         rim(&self.flow, &slip)
     }
 
-    /// Damage of the band by the record's law at no mean stress; it has failed where its metal has become weaker by heat than it was.
+    /// Damage of the band by the record's law at no mean stress.
     fn damage_band(&self, now: &MotionState, next: &mut MotionState) {
-        let strain = next.rim.strain;
-        if self.flow.peak_strain.is_some_and(|peak| strain > peak) {
-            next.damage = 1.0;
-        } else if let Some(law) = &self.damage {
-            let state = DamageState {
-                triaxiality: 0.0,
-                strain_rate: next.rim.rate,
-                temperature: self.flow.temperature(strain),
-            };
-            next.damage = law.grow(0.0, &state, strain).max(now.damage);
-        }
+        let Some(law) = &self.damage else {
+            return;
+        };
+        let state = DamageState {
+            triaxiality: 0.0,
+            strain_rate: next.rim.rate,
+            temperature: self.flow.temperature(next.rim.strain),
+        };
+        next.damage = law.grow(0.0, &state, next.rim.strain).max(now.damage);
     }
 
     /// Plastic and inertial force on a flat face [N] that sinks at a relative speed [m/s].
@@ -96,8 +95,8 @@ impl Impact {
         (slow * self.area(), inertial * self.area())
     }
 
-    /// Plastic and inertial force on a pointed or round nose [N].
-    pub fn opening(&self, sunk: f64, relative: f64) -> (f64, f64) {
+    /// Plastic and inertial force on a pointed or round nose [N]; `extent` is that of the field before, then of this one.
+    pub fn opening(&self, sunk: f64, relative: f64, extent: &mut Option<f64>) -> (f64, f64) {
         let at = |behind: f64| radius(self.nose, self.diameter, behind);
         let (front, back) = (at(sunk), at(sunk - self.thickness));
         let contact = PI * (front * front - back * back);
@@ -106,7 +105,8 @@ impl Impact {
         }
         let factor = nose_factor(self.nose);
         let growth = relative * factor.sqrt();
-        let hole = hole(&self.flow, front, self.thickness, growth);
+        let hole = hole(&self.flow, front, self.thickness, growth, *extent);
+        *extent = Some(hole.extent);
         let pressure = hole.pressure.min(self.cavity_pressures[1]);
         let inertial = hole.inertia * self.density * growth * growth;
         (pressure * contact, inertial * contact)

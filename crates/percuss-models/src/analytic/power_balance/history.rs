@@ -20,7 +20,7 @@ pub(super) fn of(impact: &Impact, run: &Perforation, speed: f64, length: f64) ->
 
 fn sample(impact: &Impact, moment: &MotionState, step: u64, speed: f64, length: f64) -> Sample {
     let [velocity, plug, plate] = moment.velocities;
-    let depth = moment.sunk + moment.slip + moment.deflection;
+    let depth = moment.sunk + moment.slip + moment.deflection + moment.flexure;
     let mut sample = Sample::default();
     sample.time = moment.time;
     sample.step = step;
@@ -52,6 +52,7 @@ pub(super) fn energy(impact: &Impact, moment: &MotionState, speed: f64) -> Energ
     energy.plastic_target = moment.local_work;
     energy.border_shear = moment.rim_work;
     energy.plastic_plate = moment.dish_work;
+    energy.elastic_plate = moment.wave_work;
     energy.contact = moment.capture;
     energy.eroded = moment.displaced;
     energy

@@ -4,7 +4,7 @@ use super::{
     fields::{Dish, Rim, least},
     flow::Flow,
     forces::Forces,
-    links::{BODIES, Body, Step, potential, step},
+    links::{BODIES, Body, Row, Step, potential, step},
 };
 use crate::{material::PreparedDamage, problem::Nose};
 
@@ -27,6 +27,8 @@ pub(super) struct Impact {
     pub damage: Option<PreparedDamage>,
     /// Pressure of a spherical and a cylindrical cavity in the plate's metal [Pa].
     pub cavity_pressures: [f64; 2],
+    /// Force that the elastic plate opposes to a velocity of its middle [N s/m]: `8 √(ρ h D)`.
+    pub impedance: f64,
     /// Whether the flat face sinks into the plate.
     pub indentation: bool,
     /// Whether the plate around the rim dishes.
@@ -44,6 +46,12 @@ pub(super) struct MotionState {
     pub slip: f64,
     /// Deflection of the plate at the rim [m].
     pub deflection: f64,
+    /// Elastic deflection [m].
+    pub flexure: f64,
+    /// Its rate [m/s].
+    pub flexing: f64,
+    /// Whether all bodies move as one with the elastic plate.
+    pub held: bool,
     /// Radius b out to which the plate moves [m].
     pub edge: f64,
     /// Velocities of projectile, plug and rim of the plate [m/s].
@@ -52,6 +60,8 @@ pub(super) struct MotionState {
     pub force: f64,
     /// Band at the rim of the plug.
     pub rim: Rim,
+    /// Radius of the metal that moves around the hole of a pointed or round nose, over that of the hole.
+    pub extent: Option<f64>,
     /// Damage of the band.
     pub damage: f64,
     /// Plastic work of the local field [J].
@@ -64,6 +74,8 @@ pub(super) struct MotionState {
     pub rim_work: f64,
     /// Plastic work of the dish [J].
     pub dish_work: f64,
+    /// Energy of the elastic waves in the plate [J].
+    pub wave_work: f64,
     /// Kinetic energy lost where bodies became one, and to changes of the dish's field [J].
     pub capture: f64,
     /// Impulse that the plate at rest took [N s].
@@ -93,6 +105,8 @@ const START: f64 = 1e-4;
 const GROWTH: f64 = 0.2;
 /// Part of the impact velocity below which the time step no longer grows.
 const SLOW: f64 = 0.03;
+/// Step over the time m/Z in which an elastic plate stops what moves as one with it.
+const DECAY: f64 = 0.004;
 /// Bound on the number of steps; every run ends before it.
 const MOST_STEPS: u32 = 200_000;
 /// Radius of the dish over that of the rim, less 1: where it is looked for.
@@ -174,7 +188,7 @@ impl Impact {
         for _ in 0..MOST_STEPS {
             now = self.advance(&now, speed);
             run.peak_force = run.peak_force.max(now.force);
-            self.note_stages(&mut run.stages, &now, speed);
+            self.note_stages(&mut run.stages, &now);
             if record {
                 run.moments.push(now);
             }
@@ -187,9 +201,9 @@ impl Impact {
         run
     }
 
-    fn note_stages(&self, stages: &mut [Option<f64>; 3], now: &MotionState, speed: f64) {
+    fn note_stages(&self, stages: &mut [Option<f64>; 3], now: &MotionState) {
         let began = [
-            now.velocities[2] > 1e-6 * speed,
+            now.deflection > 1e-6 * self.thickness,
             now.slip > 1e-6 * self.thickness,
             now.damage >= 1.0,
         ];
@@ -203,23 +217,60 @@ impl Impact {
     /// The state a time step later.
     fn advance(&self, now: &MotionState, speed: f64) -> MotionState {
         let fastest = now.velocities[0].abs().max(SLOW * speed);
-        let longest = self.thickness / (STEPS * fastest);
+        let mut longest = self.thickness / (STEPS * fastest);
+        if self.bulging && now.held {
+            longest = longest.max(DECAY * self.mass / self.impedance);
+        }
         let duration = (START * longest + GROWTH * now.time).min(longest);
         let mut next = *now;
         let forces = self.forces(now, duration, &mut next);
-        if self.bulging && self.bulges(now, &forces) {
-            next.edge = self.best_edge(now, &forces, duration);
+        let stress = self.dish_stress(now);
+        if self.bulging && !now.held && self.bulges(now, &forces) {
+            next.edge = self.best_edge(now, &forces, stress, duration);
         }
-        let bodies = self.bodies(now, &forces, next.edge, duration);
+        let bodies = self.bodies(now, &forces, next.edge, stress, duration);
         let count = self.count();
-        let taken = step(&bodies[..count]);
+        let taken = step(Row {
+            bodies: &bodies[..count],
+            mobility: self.mobility(now, duration),
+        });
         self.account(now, &mut next, &forces, &bodies, &taken, duration);
         next
+    }
+
+    /// Velocity of the elastic plate over the impulse of a step [1/kg]. Linear bending ends at a deflection of one thickness: beyond it, and
+    /// where it does not bend at all, the plate is rigid.
+    fn mobility(&self, now: &MotionState, duration: f64) -> f64 {
+        match self.bulging && now.flexure.abs() < self.thickness {
+            true => 1.0 / (self.impedance * duration),
+            false => 0.0,
+        }
     }
 
     /// Number of bodies that can move.
     fn count(&self) -> usize {
         1 + usize::from(self.flat()) + usize::from(self.bulging)
+    }
+
+    /// Plastic part of the velocity of the dish [m/s].
+    fn dishing(&self, now: &MotionState) -> f64 {
+        let plastic = now.velocities[2] - now.flexing;
+        // Rounding.
+        if plastic.abs() > 1e-9 * now.velocities[2].abs() {
+            plastic
+        } else {
+            0.0
+        }
+    }
+
+    /// Flow stress of the dish before a step [Pa].
+    fn dish_stress(&self, now: &MotionState) -> f64 {
+        if !self.bulging {
+            return 0.0;
+        }
+        let dish = self.dish();
+        let (strain, rate) = dish.strain(now.edge, now.deflection, self.dishing(now));
+        self.flow.stress(strain, rate)
     }
 
     /// Bodies in a row at the velocities before a step; the dish has the momentum of its old field in its new one.
@@ -228,6 +279,7 @@ impl Impact {
         now: &MotionState,
         forces: &Forces,
         edge: f64,
+        dish_stress: f64,
         duration: f64,
     ) -> [Body; BODIES] {
         let local = (forces.local + forces.inertial) * duration;
@@ -252,10 +304,8 @@ impl Impact {
         if self.bulging {
             let dish = self.dish();
             let mass = dish.mass(edge);
-            let (strain, rate) = dish.strain(now.edge, now.deflection, now.velocities[2]);
-            let stress = self.flow.stress(strain, rate);
-            let deflection = now.deflection + 0.5 * duration * now.velocities[2];
-            let resistance = dish.resistance(edge, deflection, stress) * duration;
+            let deflection = now.deflection + 0.5 * duration * self.dishing(now);
+            let resistance = dish.resistance(edge, deflection, dish_stress) * duration;
             bodies[count] = Body {
                 mass,
                 velocity: now.velocities[2] * dish.common(now.edge, edge) / mass,
@@ -275,24 +325,28 @@ impl Impact {
         let dish = self.dish();
         let widest = dish.rim * (1.0 + EDGES.1);
         let least = dish.resistance(widest, now.deflection, self.flow.stress(0.0, 0.0));
-        now.velocities[2] > 0.0 || push > least
+        self.dishing(now) > 0.0 || push > least
     }
 
     /// The radius of the dish at which the step needs the least power, kinetic and plastic.
-    fn best_edge(&self, now: &MotionState, forces: &Forces, duration: f64) -> f64 {
+    fn best_edge(&self, now: &MotionState, forces: &Forces, stress: f64, duration: f64) -> f64 {
         let dish = self.dish();
+        let mobility = self.mobility(now, duration);
         let before = 0.5 * dish.mass(now.edge) * now.velocities[2].powi(2);
         let needed = |log: f64| {
             let edge = dish.rim * (1.0 + log.exp());
-            let bodies = self.bodies(now, forces, edge, duration);
-            let bodies = &bodies[..self.count()];
-            let taken = step(bodies);
-            let last = bodies[bodies.len() - 1];
-            before - 0.5 * last.mass * last.velocity.powi(2) + potential(bodies, &taken)
+            let bodies = self.bodies(now, forces, edge, stress, duration);
+            let row = Row {
+                bodies: &bodies[..self.count()],
+                mobility,
+            };
+            let taken = step(row);
+            let last = bodies[row.bodies.len() - 1];
+            before - 0.5 * last.mass * last.velocity.powi(2) + potential(row, &taken)
         };
         let (mut low, mut high) = (EDGES.0.ln(), EDGES.1.ln());
         let last = (now.edge / dish.rim - 1.0).ln();
-        if now.velocities[2] > 0.0 {
+        if self.dishing(now) > 0.0 {
             (low, high) = (
                 (last - EDGE_CHANGE).max(low),
                 (last + EDGE_CHANGE).min(high),
@@ -344,8 +398,27 @@ impl Impact {
         next.impulse += taken.impulses[last - 1];
         if self.bulging {
             next.velocities[2] = taken.velocities[last];
-            next.deflection = now.deflection + duration * mean(last);
-            next.dish_work += taken.impulses[last] * mean(last);
+            let impulse = taken.impulses[last];
+            let yields = impulse.abs() >= bodies[last].largest * (1.0 - 1e-12);
+            // Of a plate that does not yield, all motion is elastic.
+            let elastic = if yields {
+                self.mobility(now, duration) * impulse
+            } else {
+                mean(last)
+            };
+            next.held = !yields
+                && taken.velocities[..=last]
+                    .iter()
+                    .all(|v| *v == taken.velocities[0]);
+            next.flexing = if yields {
+                elastic
+            } else {
+                taken.velocities[last]
+            };
+            next.flexure += duration * elastic;
+            next.wave_work += impulse * elastic;
+            next.deflection += duration * (mean(last) - elastic);
+            next.dish_work += impulse * (mean(last) - elastic);
             let dish = self.dish();
             let old = dish.mass(now.edge) * now.velocities[2].powi(2);
             next.capture += 0.5 * (old - bodies[last].mass * bodies[last].velocity.powi(2));
