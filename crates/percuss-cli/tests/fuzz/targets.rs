@@ -4,7 +4,7 @@ use std::{
     fs,
     ops::ControlFlow,
     path::Path,
-    sync::atomic::AtomicBool,
+    sync::{LazyLock, atomic::AtomicBool},
     time::{Duration, Instant},
 };
 
@@ -25,6 +25,7 @@ use percuss::{
 };
 use percuss_cli::VirtualFiles;
 use percuss_report::sweep::{SweepFolder, status};
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use tempfile::TempDir;
 
 use super::http;
@@ -409,6 +410,12 @@ fn command_lines() -> Vec<String> {
     .to_vec()
 }
 
+/// Threads for command lines alone: in the common pool one that waits may take up a run of minutes of another test.
+static THREADS: LazyLock<ThreadPool> = LazyLock::new(|| {
+    let threads = ThreadPoolBuilder::new().num_threads(2).build();
+    threads.expect("threads start")
+});
+
 /// A command line of a word per line, whose case is a text; a command that computes is stopped at once.
 fn command_line(text: &str) -> End {
     let mut words: Vec<String> = text.lines().map(str::to_owned).collect();
@@ -427,8 +434,10 @@ fn command_line(text: &str) -> End {
     );
     let stop = AtomicBool::new(true);
     let words = words.into_iter().map(Into::into);
-    let end = percuss_cli::execute(words, &virtual_files, &stop, &mut |_, _| {
-        ControlFlow::Break(())
+    let end = THREADS.install(|| {
+        percuss_cli::execute(words, &virtual_files, &stop, &mut |_, _| {
+            ControlFlow::Break(())
+        })
     });
     match end {
         Ok(_) => Ok("answered"),
