@@ -11,7 +11,7 @@ import percuss
 import pytest
 from conftest import ROOT, Program
 
-PAGE = (ROOT / "docs/python.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs/reference/python-commands.md").read_text(encoding="utf-8")
 
 
 def rows(heading: str) -> list[list[str]]:
@@ -61,7 +61,7 @@ def in_python(there: str) -> Callable[..., Any] | property | None:
 def test_every_command_has_its_counterpart_or_a_reason(program: Program) -> None:
     there = [" ".join(way) for way in commands(program)]
     assert len(there) > 20 and "sweep plot" in there
-    assert sorted(there) == sorted(COMMANDS), "the table in docs/python.md lists the commands of the program"
+    assert sorted(there) == sorted(COMMANDS), "the table in docs/reference/python-commands.md lists the commands of the program"
     for command, cell in COMMANDS.items():
         assert in_python(cell) is not None or len(cell) > 20, f"`{command}` has neither a counterpart nor a reason"
 
