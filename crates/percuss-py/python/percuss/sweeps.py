@@ -190,7 +190,7 @@ def sweep(
 
 
 def merge(folders: Path | Sequence[Path], out: Path, *, units: str | None = None) -> int:
-    """Joins folders that hold all parts of a sweep into one Parquet file, as ``percuss sweep merge`` does.
+    """Joins folders that hold all parts of a sweep into one file, as ``percuss sweep merge`` does.
 
     Parameters
     ----------
