@@ -14,7 +14,7 @@ const LAST_EXCESS: f64 = 1e-6;
 const MOST_ITERATIONS: u32 = 100;
 
 /// Eight rings whose trial moments and shear forces are beyond the yield surface.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct FlowingRings {
     /// Sum and difference of the trial moments, and the trial shear force.
     pub(super) trial: [Lanes; 3],
@@ -24,18 +24,6 @@ pub(super) struct FlowingRings {
     pub(super) temperature: Lanes,
     /// 1 in lanes with a ring, or 0.
     pub(super) present: Lanes,
-}
-
-impl Default for FlowingRings {
-    fn default() -> Self {
-        Self {
-            trial: [Lanes::all(0.0); 3],
-            multiplier: Lanes::all(0.0),
-            plastic_strain: Lanes::all(0.0),
-            temperature: Lanes::all(0.0),
-            present: Lanes::all(0.0),
-        }
-    }
 }
 
 impl FlowingRings {
@@ -179,5 +167,86 @@ impl LawVisitor<f64> for Return<'_> {
     {
         self.rings
             .search(&law.lane(0), self.section, self.time_step);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        chain::band_law::Failure,
+        material::{FlowStress, Library, PreparedStrength},
+        options::ChainOptions,
+    };
+
+    /// A law whose equations are not known.
+    #[derive(Debug)]
+    struct Unknown(Box<dyn PreparedStrength>);
+
+    impl PreparedStrength for Unknown {
+        fn flow_stress(&self, state: &FlowState) -> FlowStress {
+            self.0.flow_stress(state)
+        }
+    }
+
+    fn section(material: &str) -> PlateSection {
+        let material = &Library::built_in().find(material).unwrap().material;
+        PlateSection::new(material, 0.012, Failure::Never, &ChainOptions::default())
+    }
+
+    /// Five rings of different loads and states.
+    fn rings() -> FlowingRings {
+        let mut rings = FlowingRings::default();
+        for lane in 0..LANES {
+            let part = 1.0 + 0.3 * lane as f64;
+            rings.trial[0][lane] = 6e4 * part;
+            rings.trial[1][lane] = -1e4 * part * part;
+            rings.trial[2][lane] = 2e6 / part;
+            rings.multiplier[lane] = 1e-3 * part;
+            rings.plastic_strain[lane] = 0.02 * (part - 1.0);
+            rings.temperature[lane] = 293.15 + 50.0 * part;
+            rings.present[lane] = if lane < 5 { 1.0 } else { 0.0 };
+        }
+        rings
+    }
+
+    /// On the yield surface, whose flow stress here is asked of the law itself; what is no ring stays as it is.
+    #[test]
+    fn moments_return_to_the_yield_surface() {
+        for material in ["weldox-460-e-borvik", "copper", "7085-t711-plate"] {
+            let section = section(material);
+            let (time_step, before) = (2e-8, rings());
+            let mut after = before;
+            after.find_multipliers(&section, time_step);
+            for lane in 0..5 {
+                let trial = before.trial.map(|trial| trial[lane]);
+                let moment = section.equivalent(section.returned(trial, after.multiplier[lane]));
+                let strain = section.strain(after.multiplier[lane], moment);
+                let stress = section.strength.flow_stress(&FlowState {
+                    plastic_strain: before.plastic_strain[lane] + strain,
+                    strain_rate: strain / time_step,
+                    temperature: before.temperature[lane],
+                    pressure: 0.0,
+                });
+                let beyond = moment - section.modulus() * stress.stress;
+                assert!(beyond.abs() < 1e-9 * section.equivalent(trial), "{beyond}");
+                assert!(strain > 0.0);
+            }
+            for lane in 5..LANES {
+                assert_eq!(after.multiplier[lane], before.multiplier[lane]);
+            }
+        }
+    }
+
+    #[test]
+    fn a_law_that_is_called_gives_the_same_bits() {
+        for material in ["weldox-460-e-borvik", "copper", "7085-t711-plate"] {
+            let (known, mut unknown) = (section(material), section(material));
+            unknown.strength = Box::new(Unknown(unknown.strength));
+            let (mut first, mut second) = (rings(), rings());
+            first.find_multipliers(&known, 2e-8);
+            second.find_multipliers(&unknown, 2e-8);
+            assert_eq!(first.multiplier, second.multiplier, "{material}");
+        }
     }
 }
