@@ -160,7 +160,7 @@ impl Model for PowerBalance {
                 ],
                 notes: &[
                     "normal impact; the plate has no edge, and bends elastically, without reflections, by up to its thickness",
-                    "hardening laws without temperature soften by heat, by the melting heat of such metals where the record has none",
+                    "hardening laws without temperature soften by heat, by a melting heat of 0.0267 of Young's modulus where the record has none",
                     "a pointed or round nose opens a hole; it neither tears petals nor shears a plug",
                 ],
                 ..ValidityDomain::OPEN

@@ -2,16 +2,12 @@ use std::f64::consts::PI;
 
 use super::{
     fields::{Dish, Slip, hole, punch, rim},
-    flow::{Flow, MELTING_HEAT, MELTING_HEATS, own_melting_heat},
+    flow::Flow,
     history, impact,
     links::{Body, Row, step},
     motion::Impact,
 };
-use crate::{
-    analytic::plate_impact::PlateImpact,
-    case,
-    material::{Library, Material},
-};
+use crate::{analytic::plate_impact::PlateImpact, case};
 
 const PERFECT: &str = "perfectly_plastic = { flow_stress = '400 MPa' }";
 const POWER: &str = "power_law = { coefficient = '400 MPa', exponent = 0.2 }";
@@ -328,26 +324,6 @@ fn a_law_without_temperature_softens_to_the_melting_point() {
     // A constant stress is a mean over the heating.
     let perfect = of(PERFECT, NOSES[0], 12.0, "").flow;
     assert_eq!(perfect.stress(4.0, 1e3), 400e6);
-}
-
-/// What stands for the heat of a record without it is that of the records of its group.
-#[test]
-fn melting_heats_are_the_medians_of_the_library() {
-    let median = |wanted: &dyn Fn(&Material) -> bool| {
-        let records = Library::built_in().iter().map(|entry| &*entry.material);
-        let alike = records.filter(|record| wanted(record));
-        let ratios =
-            alike.filter_map(|record| Some(own_melting_heat(record)? / record.youngs_modulus.si()));
-        let mut ratios: Vec<f64> = ratios.collect();
-        ratios.sort_by(f64::total_cmp);
-        let (low, high) = ((ratios.len() - 1) / 2, ratios.len() / 2);
-        0.5 * (ratios[low] + ratios[high])
-    };
-    for (group, heat) in MELTING_HEATS {
-        let found = median(&|record| record.group == Some(group));
-        assert!((found - heat).abs() < 6e-5, "{group:?}: {found}");
-    }
-    assert!((median(&|_| true) - MELTING_HEAT).abs() < 6e-5);
 }
 
 /// A slow impact on a plate that does not yield: `m v̇ = −8 √(ρ h D) v`, so that all energy goes into waves and `δ = m V/(8 √(ρ h D))`.
