@@ -115,7 +115,7 @@ def test_a_run_that_is_stopped_goes_on_to_the_folder_of_the_program(program: Pro
         "short",
         projectile={"material": "copper", "length": "6 mm", "diameter": "4 mm", "impact_velocity": "400 m/s"},
         target={"material": "aluminium-2024-t351", "thickness": "4 mm"},
-        axi={"cells_per_radius": 8, "target_radius": "8 mm", "end_time": "4 us"},
+        axi={"cells_per_radius": 16, "target_radius": "8 mm", "end_time": "24 us"},
     )
     case.save(tmp_path / "short.toml")
 
