@@ -45,8 +45,8 @@ fn the_table_has_limits_brackets_and_fits_and_says_who_has_none() {
         "184.5",
         "v_r = a (v^p - v_bl^p)^(1/p)",
         "the rear face of the plate is taken as free: the case gives no `target.back_face`",
-        "plugging ★",
-        "★ recommended: plugging: ",
+        "power_balance ★",
+        "★ recommended: power_balance: ",
         "models that predict a limit: ",
         "no estimated model error of chain, fdm, plugging, awerbuch_bodner, power_balance: fewer than 5 published limits",
         "residual velocity above a given limit (an input, not a prediction of the limit)",
@@ -88,13 +88,13 @@ fn the_first_line_has_the_limit_to_use() {
     let light = BLUNT.replace("weldox-460-e", "aluminium-2024-t351");
     let (line, text) = head(&light, &["--reference", "standard"]);
     assert!(
-        line.starts_with("Ballistic limit 115.9 m/s (plugging), model error +20 %"),
+        line.starts_with("Ballistic limit 143.6 m/s (power_balance), model error −8 %"),
         "{text}"
     );
     assert!(text.contains(" axisymmetric limit "), "{text}");
     let (line, text) = head(BLUNT, &["--fast"]);
     assert!(
-        line.starts_with("Ballistic limit 131.4 m/s (plugging), -28.8 %"),
+        line.starts_with("Ballistic limit 168.5 m/s (power_balance), -8.7 %"),
         "{text}"
     );
     assert!(!text.contains("axisymmetric limit"), "{text}");

@@ -5,11 +5,11 @@ use std::f64::consts::PI;
 use super::plate_impact::{PlateImpact, plate_result, refuse, taken_as_rigid};
 use crate::{
     Error, Refusal, Scenario,
-    material::{Material, MaterialClass, tensile_strength},
+    material::{Material, tensile_strength},
     outcome::{Band, BandQuantity, Detail, RunResult},
     regime::{ProjectileRegime, THIN, TargetKind},
     solver::{Control, Model},
-    validity::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
+    validity::{Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 
 /// Shearing out a plug.
@@ -73,14 +73,6 @@ pub(super) const PLUG_RANGES: &[Range] = &[
     },
 ];
 
-const PLUGS: FirstChoice = FirstChoice {
-    projectile: ProjectileRegime::Rigid,
-    targets: &[TargetKind::ThinPlate],
-    noses: &[NoseKind::Flat],
-    target_material: MaterialClass::Metal,
-    because: "a thin plate under a blunt nose fails by shearing a plug",
-};
-
 impl Model for Plugging {
     fn name(&self) -> &'static str {
         "plugging"
@@ -98,13 +90,6 @@ impl Model for Plugging {
                 targets: TargetKind::PLATES,
                 noses: &[NoseKind::Flat],
                 ranges: PLUG_RANGES,
-                first_choice: &[
-                    PLUGS,
-                    FirstChoice {
-                        projectile: ProjectileRegime::Deforming,
-                        ..PLUGS
-                    },
-                ],
                 notes: &[
                     "normal impact; the whole thickness shears along the rim at a constant stress",
                     "bending of the plate, indentation, rate and heat are left out: see the validation report for how far measured limits lie off",

@@ -150,7 +150,7 @@ fn limits_are_those_of_the_library_and_say_what_they_rest_on() {
     assert_eq!(done["limits"], expected);
     let face = done["rear_face"].as_str().unwrap();
     assert!(face.contains("taken as free"), "{face}");
-    assert_eq!(done["limits"]["recommended"][0]["model"], "plugging");
+    assert_eq!(done["limits"]["recommended"][0]["model"], "power_balance");
     let said = done["expected"].as_array().unwrap();
     let said: Vec<&str> = said.iter().filter_map(Value::as_str).collect();
     assert!(

@@ -5,7 +5,7 @@ use super::{
     *,
 };
 use crate::{
-    analytic::{AwerbuchBodner, LambertJonas, Plugging, RechtIpson},
+    analytic::{AwerbuchBodner, LambertJonas, Plugging, PowerBalance, RechtIpson},
     case::RearFaceCondition,
     chain::Chain,
     scenario::TargetBody,
@@ -144,7 +144,7 @@ fn a_limit_that_is_an_input_is_none() {
 
 #[test]
 fn the_first_choice_at_its_own_limit_is_recommended() {
-    let models: [&dyn Model; 2] = [&Plugging, &AwerbuchBodner];
+    let models: [&dyn Model; 2] = [&PowerBalance, &AwerbuchBodner];
     let of = |scenario: &Scenario, models: &[&dyn Model]| {
         limits(
             models,
@@ -160,12 +160,12 @@ fn the_first_choice_at_its_own_limit_is_recommended() {
         .iter()
         .map(|choice| choice.model)
         .collect();
-    assert_eq!(names, ["plugging"], "{blunt:?}");
-    assert!(blunt.is_recommended("plugging") && blunt.note.is_none());
+    assert_eq!(names, ["power_balance"], "{blunt:?}");
+    assert!(blunt.is_recommended("power_balance") && blunt.note.is_none());
     // Too few limits of steel plates under flat noses are published; of aluminium plates there are enough.
     assert_eq!(
         blunt.without_expected_error(),
-        ["plugging", "awerbuch_bodner"]
+        ["power_balance", "awerbuch_bodner"]
     );
     let light = BLUNT.replace("weldox-460-e", "aluminium-2024-t351");
     let light = of(&scenario(&light), &models);
@@ -205,8 +205,9 @@ fn disc(budget: Option<f64>) -> (Scenario, Search) {
 #[test]
 fn the_axisymmetric_limit_is_recommended_where_no_other_one_is_judged() {
     let (steel, search) = disc(None);
-    let of =
-        |case: &Scenario| limits(&[&Plugging], case, &search, &mut Observer::default()).unwrap();
+    let of = |case: &Scenario| {
+        limits(&[&PowerBalance], case, &search, &mut Observer::default()).unwrap()
+    };
     let chosen = |found: &Limits| Vec::from_iter(found.recommended.iter().map(|c| c.model));
     let found = of(&steel);
     assert_eq!((chosen(&found), found.note), (vec!["axi"], None));
@@ -232,7 +233,7 @@ fn the_axisymmetric_limit_is_recommended_where_no_other_one_is_judged() {
                 .is_some()
         );
         assert!(found.results[0].expected_error.is_some());
-        assert_eq!(chosen(&found), ["plugging"]);
+        assert_eq!(chosen(&found), ["power_balance"]);
     }
 }
 
@@ -240,7 +241,7 @@ fn the_axisymmetric_limit_is_recommended_where_no_other_one_is_judged() {
 #[test]
 fn an_axisymmetric_limit_beyond_its_budget_is_left_out_with_the_reason() {
     let (steel, search) = disc(Some(0.01));
-    let found = limits(&[&Plugging], &steel, &search, &mut Observer::default()).unwrap();
+    let found = limits(&[&PowerBalance], &steel, &search, &mut Observer::default()).unwrap();
     let left_out = found.axisymmetric.unwrap();
     assert_eq!(
         (left_out.ballistic_limit_m_s, left_out.meshes.len()),
@@ -252,7 +253,7 @@ fn an_axisymmetric_limit_beyond_its_budget_is_left_out_with_the_reason() {
         "{reason}"
     );
     assert_eq!(found.results[0].outcome, LimitOutcome::Found);
-    assert_eq!(found.recommended[0].model, "plugging");
+    assert_eq!(found.recommended[0].model, "power_balance");
 }
 
 /// The coarsest mesh is searched about the limits of the other models, and everywhere where it has none there.
@@ -301,7 +302,7 @@ fn the_axisymmetric_limit_has_three_meshes_and_an_uncertainty() {
     let mut observer = Observer {
         progress: Some(&mut report),
     };
-    let found = limits(&[&Plugging], &disc, &search, &mut observer).unwrap();
+    let found = limits(&[&PowerBalance], &disc, &search, &mut observer).unwrap();
     let limit = found.axisymmetric.unwrap();
     println!("{limit:?}");
     assert!(rises && (last.fraction - 1.0).abs() < 1e-9);
@@ -326,7 +327,7 @@ fn the_axisymmetric_limit_has_three_meshes_and_an_uncertainty() {
         target = { material = "aluminium-2024-t351", thickness = "semi-infinite" }
         "#,
     );
-    let none = limits(&[&Plugging], &thick, &search, &mut Observer::default()).unwrap();
+    let none = limits(&[&PowerBalance], &thick, &search, &mut Observer::default()).unwrap();
     let none = none.axisymmetric.unwrap();
     assert_eq!((none.ballistic_limit_m_s, none.meshes.len()), (None, 0));
     assert!(none.reason.unwrap().contains("no rear face"), "a reason");

@@ -20,6 +20,13 @@ pub(super) struct Rim {
     pub rate: f64,
 }
 
+impl Rim {
+    /// Slip for which the band was found [m].
+    pub fn slip(&self) -> f64 {
+        SQRT_3 * self.strain * self.width
+    }
+}
+
 /// Slip of the plug against the plate around it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Slip {
@@ -38,6 +45,8 @@ const NARROWER: f64 = 0.8;
 /// Narrowest band in radii.
 const NARROWEST: f64 = 1e-7;
 const REFINEMENTS: u32 = 16;
+/// A wider band over the narrowest: if it needs more force, no minimum lies just beside it.
+const BESIDE_NARROWEST: f64 = 1.001;
 
 /// The band of the least power between a plug and the plate around it.
 ///
@@ -55,6 +64,7 @@ pub(super) fn rim(flow: &Flow, slip: &Slip) -> Rim {
         }
     };
     let narrowest = slip.width.max(NARROWEST * slip.radius);
+    let held = at(narrowest);
     let mut best = at(slip.radius.max(narrowest));
     loop {
         let next = at((best.width * NARROWER).max(narrowest));
@@ -62,7 +72,10 @@ pub(super) fn rim(flow: &Flow, slip: &Slip) -> Rim {
             break;
         }
         if next.width <= narrowest {
-            return next;
+            if at(narrowest * BESIDE_NARROWEST).stress >= held.stress {
+                return held;
+            }
+            break;
         }
         best = next;
     }

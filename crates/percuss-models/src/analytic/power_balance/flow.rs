@@ -1,7 +1,7 @@
 //! Flow stress of the plate along an adiabatic path, by the material's own strength law.
 
 use crate::{
-    material::{FlowState, Material, PreparedStrength},
+    material::{FlowState, Material, MaterialGroup, PreparedStrength},
     options::PowerBalanceOptions,
 };
 
@@ -10,9 +10,18 @@ const LARGEST_STRAIN: f64 = 50.0;
 const NODES: u32 = 400;
 /// Nodes of a stress that depends on the strain alone: interpolation is right to 1e-5.
 const STRESS_NODES: u32 = 4000;
-/// Heat that warms a metal to its melting point over Young's modulus: the median of 21 records of the library, among them aluminium alloys
-/// with 0.021, steels with 0.026, copper alloys with 0.028 and titanium alloys with 0.032.
-const MELTING_HEAT: f64 = 0.0267;
+/// Groups of metals by density [kg/m3] and Young's modulus [Pa], with the heat up to the melting point over the modulus: medians of the
+/// records of the library that have thermal data.
+pub(super) const METALS: [Metal; 4] = [
+    Metal::new(MaterialGroup::Aluminium, 2740.0, 71e9, 0.0211),
+    Metal::new(MaterialGroup::Titanium, 4430.0, 114e9, 0.0323),
+    Metal::new(MaterialGroup::Steel, 7850.0, 205e9, 0.0262),
+    Metal::new(MaterialGroup::Copper, 8800.0, 120e9, 0.0282),
+];
+/// The median of all 21 records with thermal data, for other metals.
+pub(super) const OTHER_METALS: f64 = 0.0267;
+/// Largest factors in density and in modulus between a metal and its group.
+const ALIKE: [f64; 2] = [1.1, 1.25];
 
 /// Strength law with the temperature of an adiabatic path.
 #[derive(Debug)]
@@ -106,15 +115,51 @@ impl Flow {
     }
 }
 
+/// A group of metals.
+#[derive(Debug)]
+pub(super) struct Metal {
+    pub group: MaterialGroup,
+    density: f64,
+    modulus: f64,
+    /// Heat up to the melting point over Young's modulus.
+    pub heat: f64,
+}
+
+impl Metal {
+    const fn new(group: MaterialGroup, density: f64, modulus: f64, heat: f64) -> Self {
+        Self {
+            group,
+            density,
+            modulus,
+            heat,
+        }
+    }
+
+    /// The group of a material: that of its record, or else the one of like density and modulus.
+    pub fn of(material: &Material) -> Option<&'static Self> {
+        let alike = |a: f64, b: f64, factor: f64| a < factor * b && b < factor * a;
+        METALS.iter().find(|metal| match material.group {
+            Some(group) => group == metal.group,
+            None => {
+                alike(metal.density, material.density.si(), ALIKE[0])
+                    && alike(metal.modulus, material.youngs_modulus.si(), ALIKE[1])
+            }
+        })
+    }
+}
+
 /// Heat per volume that warms a metal to its melting point [J/m3].
 fn melting_heat(material: &Material) -> f64 {
-    match (material.specific_heat, material.melting_temperature) {
-        (Some(specific_heat), Some(melting)) => {
-            let warming = melting.si() - material.room_temperature.si();
-            material.density.si() * specific_heat.si() * warming
-        }
-        _ => MELTING_HEAT * material.youngs_modulus.si(),
-    }
+    own_melting_heat(material).unwrap_or_else(|| {
+        let ratio = Metal::of(material).map_or(OTHER_METALS, |metal| metal.heat);
+        ratio * material.youngs_modulus.si()
+    })
+}
+
+/// The same by the constants of the record [J/m3]; `None` where it lacks one.
+pub(super) fn own_melting_heat(material: &Material) -> Option<f64> {
+    let warming = material.melting_temperature?.si() - material.room_temperature.si();
+    Some(material.density.si() * material.specific_heat?.si() * warming)
 }
 
 /// Whether the stress at unit strain is above that of first yield.
@@ -131,15 +176,21 @@ fn hardens(law: &dyn PreparedStrength, temperature: f64) -> bool {
     stress(1.0) > stress(0.0) * (1.0 + 1e-9)
 }
 
-/// Value at a plastic strain of a table over the nodes.
+/// Value at a plastic strain of a table over the nodes, by cubic interpolation: the least of a function of it must not depend on its nodes.
 fn at_strain(table: &[f64], strain: f64) -> f64 {
     let last = table.len() - 1;
     let place = last as f64 * (strain.max(0.0) / LARGEST_STRAIN).sqrt().min(1.0);
     // The place is at most the last node.
-    let node = place as usize;
-    let below = table[node];
-    let above = table[(node + 1).min(last)];
-    below + (place - node as f64) * (above - below)
+    let node = (place as usize).min(last - 1);
+    let part = place - node as f64;
+    let (here, next) = (table[node], table[node + 1]);
+    // Beyond the ends the table goes on along a line.
+    let before = node.checked_sub(1).map_or(2.0 * here - next, |i| table[i]);
+    let after = table.get(node + 2).copied().unwrap_or(2.0 * next - here);
+    let (rise, fall) = ((next - before) / 2.0, (after - here) / 2.0);
+    let step = next - here;
+    here + part
+        * (rise + part * (3.0 * step - 2.0 * rise - fall + part * (rise + fall - 2.0 * step)))
 }
 
 fn strain_of_node(node: u32, nodes: u32) -> f64 {

@@ -10,6 +10,8 @@ use crate::{analytic::nose_shape::radius, material::DamageState, regime::nose_fa
 
 /// Slip in thicknesses that a rim at rest is given.
 const LEAST_SLIP: f64 = 1e-6;
+/// Largest growth of the slip between two bands.
+const SLIP_GROWTH: f64 = 1.1;
 
 /// Forces that the local field and the rim transmit.
 #[derive(Debug, Clone, Copy)]
@@ -54,18 +56,33 @@ impl Impact {
     }
 
     /// The band at the rim; a failed one stays as it was.
+    ///
+    /// It grows to the widest of all slips on the way: a step that passes many of them must not leave one out.
     fn band(&self, now: &MotionState, slip: f64, slip_rate: f64) -> Rim {
         if now.damage >= 1.0 {
             return now.rim;
         }
-        let slip = Slip {
-            radius: self.radius(),
-            // A rim at rest has the band of the least slip.
-            slip: slip.max(LEAST_SLIP * self.thickness),
-            rate: slip_rate,
-            width: now.rim.width,
-        };
-        rim(&self.flow, &slip)
+        // A rim at rest has the band of the least slip.
+        let least = LEAST_SLIP * self.thickness;
+        let slip = slip.max(least);
+        let mut reached = now.rim.slip().max(least).min(slip);
+        let mut width = now.rim.width;
+        loop {
+            reached = (reached * SLIP_GROWTH).min(slip);
+            let band = rim(
+                &self.flow,
+                &Slip {
+                    radius: self.radius(),
+                    slip: reached,
+                    rate: slip_rate,
+                    width,
+                },
+            );
+            if reached >= slip {
+                return band;
+            }
+            width = band.width;
+        }
     }
 
     /// Damage of the band by the record's law at no mean stress.

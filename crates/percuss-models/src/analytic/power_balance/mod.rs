@@ -22,14 +22,15 @@ use super::{
 use crate::{
     Error, Refusal, Scenario,
     material::{
-        Material, cavity_expansion_pressure, cylindrical_cavity_pressure, tensile_strength,
+        Material, MaterialClass, cavity_expansion_pressure, cylindrical_cavity_pressure,
+        tensile_strength,
     },
     options::PowerBalanceOptions,
     outcome::{BandQuantity, Detail, Outcome, RunResult, Termination},
     problem::Nose,
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
-    validity::{FittedTo, Measure, NoseKind, Outside, Range, ValidityDomain},
+    validity::{FirstChoice, FittedTo, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 
 /// Perforation by a balance of power over velocity fields.
@@ -56,6 +57,15 @@ const RANGES: &[Range] = &[
 
 /// Deflection in thicknesses below which a plate counts as flat.
 const NO_BULGE: f64 = 1e-3;
+
+/// Plates under blunt noses: of the models compared with their published limits, this one errs least.
+const BLUNT: FirstChoice = FirstChoice {
+    projectile: ProjectileRegime::Rigid,
+    targets: &[TargetKind::ThinPlate, TargetKind::Plate],
+    noses: &[NoseKind::Flat],
+    target_material: MaterialClass::Metal,
+    because: "it follows a blunt projectile from sinking in to the exit of the plug, and no constant is fitted",
+};
 
 fn impact(scenario: &Scenario, case: &PlateImpact<'_>) -> Option<Impact> {
     let options = &scenario.options.power_balance;
@@ -148,6 +158,13 @@ impl Model for PowerBalance {
                 targets: TargetKind::PLATES,
                 noses: NoseKind::ALL,
                 ranges: RANGES,
+                first_choice: &[
+                    BLUNT,
+                    FirstChoice {
+                        projectile: ProjectileRegime::Deforming,
+                        ..BLUNT
+                    },
+                ],
                 fitted_to: &[
                     FittedTo {
                         sources: &["borvik2002a"],
@@ -160,7 +177,7 @@ impl Model for PowerBalance {
                 ],
                 notes: &[
                     "normal impact; the plate has no edge, and bends elastically, without reflections, by up to its thickness",
-                    "hardening laws without temperature soften by heat, by a melting heat of 0.0267 of Young's modulus where the record has none",
+                    "hardening laws without temperature soften by heat, by the melting heat of such metals where the record has none",
                     "a pointed or round nose opens a hole; it neither tears petals nor shears a plug",
                 ],
                 ..ValidityDomain::OPEN

@@ -2,12 +2,16 @@ use std::f64::consts::PI;
 
 use super::{
     fields::{Dish, Slip, hole, punch, rim},
-    flow::Flow,
+    flow::{Flow, METALS, Metal, OTHER_METALS, own_melting_heat},
     history, impact,
     links::{Body, Row, step},
     motion::Impact,
 };
-use crate::{analytic::plate_impact::PlateImpact, case};
+use crate::{
+    analytic::plate_impact::PlateImpact,
+    case,
+    material::{Library, Material, tensile_strength},
+};
 
 const PERFECT: &str = "perfectly_plastic = { flow_stress = '400 MPa' }";
 const POWER: &str = "power_law = { coefficient = '400 MPa', exponent = 0.2 }";
@@ -324,6 +328,61 @@ fn a_law_without_temperature_softens_to_the_melting_point() {
     // A constant stress is a mean over the heating.
     let perfect = of(PERFECT, NOSES[0], 12.0, "").flow;
     assert_eq!(perfect.stress(4.0, 1e3), 400e6);
+}
+
+/// What stands for the heat of a record without it is the median of the records of its metal, recognised by density and modulus alone.
+#[test]
+fn melting_heats_are_the_medians_of_the_library() {
+    let records = || Library::built_in().iter().map(|entry| &*entry.material);
+    let median = |wanted: &dyn Fn(&Material) -> bool| {
+        let alike = records().filter(|record| wanted(record));
+        let ratios =
+            alike.filter_map(|record| Some(own_melting_heat(record)? / record.youngs_modulus.si()));
+        let mut ratios: Vec<f64> = ratios.collect();
+        ratios.sort_by(f64::total_cmp);
+        let (low, high) = ((ratios.len() - 1) / 2, ratios.len() / 2);
+        0.5 * (ratios[low] + ratios[high])
+    };
+    for metal in &METALS {
+        let found = median(&|record| record.group == Some(metal.group));
+        assert!(
+            (found - metal.heat).abs() < 6e-5,
+            "{:?}: {found}",
+            metal.group
+        );
+    }
+    assert!((median(&|_| true) - OTHER_METALS).abs() < 6e-5);
+    // A plate of glass does not flow.
+    for record in records().filter(|record| tensile_strength(record).is_some()) {
+        let bare = Material {
+            group: None,
+            ..record.clone()
+        };
+        let group = |material: &Material| Metal::of(material).map(|metal| metal.group);
+        assert_eq!(group(&bare), group(record), "{}", record.name);
+    }
+}
+
+/// The exit velocity rises with the impact velocity: what the band has come to does not depend on where time steps fall.
+#[test]
+fn exit_velocities_rise_with_impact_velocity() {
+    let text = "projectile = { material = '4340', mass = '53.78 g', diameter = '19.9 mm', impact_velocity = '360 m/s' }
+        target = { material = 'plate', thickness = '22.7 mm', back_face = 'free' }
+        materials.plate = { name = 'plate', density = '2870 kg/m3', youngs_modulus = '71.7 GPa', poissons_ratio = 0.33, strength.power_law = { coefficient = '637.93 MPa', exponent = 0.0374 } }";
+    let scenario = case::load_str("plate", text).unwrap();
+    let plate = impact(&scenario, &PlateImpact::of(&scenario).unwrap()).unwrap();
+    let mut before = 0.0;
+    for speed in 300..340 {
+        let run = plate.case(f64::from(speed), false);
+        let exit = if run.perforated {
+            run.last.velocities[0]
+        } else {
+            0.0
+        };
+        assert!(exit >= before, "{speed} m/s: {exit} after {before}");
+        before = exit;
+    }
+    assert!(before > 80.0);
 }
 
 /// A slow impact on a plate that does not yield: `m v̇ = −8 √(ρ h D) v`, so that all energy goes into waves and `δ = m V/(8 √(ρ h D))`.
