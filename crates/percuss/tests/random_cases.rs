@@ -207,6 +207,28 @@ fn check(model: &dyn Model, scenario: &Scenario) -> Result<String, String> {
     }
 }
 
+/// Cases of longer runs in which a rule was broken.
+const FOUND: [&str; 1] = [
+    // Three bodies stuck at the same nodes pair by pair, and contact gave energy.
+    r#"
+    projectile = { material = "bis-uhh-plate", length = "78.479 mm", diameter = "26.296 mm", impact_velocity = "5.0098 m/s" }
+    target.layers = [{ material = "weldox-700-e-flores-johnson", thickness = "5.831 mm" }, { material = "6082-t6-plate", thickness = "5.665 mm" }]
+    axi = { max_steps = 300, cells_per_radius = 4, particles_per_side = 3, courant = 0.686, edge = "fixed", contact = "sticking", rate_effects = false, erosion_strain = 1.189 }
+    "#,
+];
+
+#[test]
+fn what_was_found_keeps_the_rules() {
+    for text in FOUND {
+        let scenario = case::load_str("found", text).unwrap();
+        for model in MODELS {
+            if let Err(what) = check(*model, &scenario) {
+                panic!("{}: {what}\n{text}", model.name());
+            }
+        }
+    }
+}
+
 /// So many cases of a seed.
 pub fn texts(cases: u64, seed: u64) -> Vec<String> {
     let mut bytes = [0; 32];

@@ -1,6 +1,7 @@
 //! Contact of bodies where their nodes meet.
 
 use super::{
+    body::Body,
     field::{FORCE, Field, MASS, MOMENTUM, Node, VOLUME},
     mesh::Mesh,
 };
@@ -17,10 +18,104 @@ pub(super) enum Contact {
 /// Part of a node's cell that bodies must fill together to touch: less is a gap.
 const TOUCHING: f64 = 0.9;
 
-/// Contact of two bodies: impulses of each node of the first on that of the second in a step, before the boundary conditions. Returns the
-/// axial impulse from the first on the second [N s].
+/// Contact of all bodies: impulses that each takes from the others at its nodes in a step, before the boundary conditions. Returns the axial
+/// impulse from the first body on the others [N s].
 pub(super) fn exchange_contact_impulses(
     contact: Contact,
+    bodies: &mut [Body],
+    mesh: &Mesh,
+    time_step: f64,
+) -> f64 {
+    let coefficient = match contact {
+        Contact::Sticking => return stick(bodies, time_step),
+        Contact::Frictional(coefficient) => coefficient,
+    };
+    let mut passed = 0.0;
+    for second in 1..bodies.len() {
+        let (before, after) = bodies.split_at_mut(second);
+        for (index, first) in before.iter_mut().enumerate() {
+            let (first, second) = (&mut first.field, &mut after[0].field);
+            let impulse = press(coefficient, first, second, mesh, time_step);
+            if index == 0 {
+                passed += impulse;
+            }
+        }
+    }
+    passed
+}
+
+/// A body at a node.
+struct Meeting {
+    body: usize,
+    node: usize,
+    mass: f64,
+    velocity: [f64; 2],
+}
+
+/// Bodies that meet at a node get one velocity, that of their common mass. Pair by pair the third would take the second from the first again,
+/// and the impulses would do work.
+fn stick(bodies: &mut [Body], time_step: f64) -> f64 {
+    let mut passed = 0.0;
+    let mut here: Vec<Meeting> = Vec::with_capacity(bodies.len());
+    for first in 0..bodies.len() {
+        let field = &bodies[first].field;
+        let (rows, columns) = (
+            field.first_row..field.first_row + field.rows as isize,
+            field.columns,
+        );
+        for (row, column) in rows.flat_map(|row| (1..columns).map(move |column| (row, column))) {
+            let meeting = |body: usize| {
+                let field = &bodies[body].field;
+                let node = field.index(row, column)?;
+                let mass = field.nodes[node][MASS];
+                (mass > 0.0).then(|| Meeting {
+                    body,
+                    node,
+                    mass,
+                    velocity: field.pushed(node, time_step),
+                })
+            };
+            // A node is met once, with the first of its bodies.
+            if (0..first).any(|body| meeting(body).is_some()) {
+                continue;
+            }
+            here.clear();
+            here.extend((first..bodies.len()).filter_map(meeting));
+            let Some((last, others)) = here.split_last() else {
+                continue;
+            };
+            if others.is_empty() || others[0].body != first {
+                continue;
+            }
+            let mass: f64 = here.iter().map(|one| one.mass).sum();
+            let common = [0, 1].map(|k| {
+                let momentum = here.iter().map(|one| one.mass * one.velocity[k]);
+                momentum.sum::<f64>() / mass
+            });
+            // The last one takes what the others gave: momentum is kept to rounding.
+            let mut given = [0.0; 2];
+            for one in others {
+                for k in [0, 1] {
+                    let part = one.mass * (one.velocity[k] - common[k]);
+                    bodies[one.body].field.impulse[one.node][k] += part;
+                    given[k] += part;
+                }
+                if one.body == 0 {
+                    passed += one.mass * (one.velocity[1] - common[1]);
+                }
+            }
+            for k in [0, 1] {
+                bodies[last.body].field.impulse[last.node][k] -= given[k];
+            }
+        }
+    }
+    passed
+}
+
+/// Contact of two bodies: impulses of each node of the first on that of the second in a step. Returns the axial impulse from the first on
+/// the second [N s].
+fn press(
+    coefficient: f64,
     first: &mut Field,
     second: &mut Field,
     mesh: &Mesh,
@@ -42,34 +137,29 @@ pub(super) fn exchange_contact_impulses(
             let (v_a, v_b) = (first.pushed(a, time_step), second.pushed(b, time_step));
             let reduced = mass_a * mass_b / (mass_a + mass_b);
             let closing = [v_a[0] - v_b[0], v_a[1] - v_b[1]];
-            let impulse = match contact {
-                Contact::Sticking => [reduced * closing[0], reduced * closing[1]],
-                Contact::Frictional(coefficient) => {
-                    let filled = (first.nodes[a][VOLUME] + second.nodes[b][VOLUME])
-                        / mesh.full_volume(row, column);
-                    if filled < TOUCHING {
-                        continue;
-                    }
-                    let Some(normal) = normal(first, second, row, column, mesh) else {
-                        continue;
-                    };
-                    let approach = closing[0] * normal[0] + closing[1] * normal[1];
-                    if approach <= 0.0 {
-                        continue;
-                    }
-                    let slide = [
-                        closing[0] - approach * normal[0],
-                        closing[1] - approach * normal[1],
-                    ];
-                    let speed = slide[0].hypot(slide[1]);
-                    let grip = if speed > 0.0 {
-                        (coefficient * approach / speed).min(1.0)
-                    } else {
-                        0.0
-                    };
-                    [0, 1].map(|k| reduced * (approach * normal[k] + grip * slide[k]))
-                }
+            let filled =
+                (first.nodes[a][VOLUME] + second.nodes[b][VOLUME]) / mesh.full_volume(row, column);
+            if filled < TOUCHING {
+                continue;
+            }
+            let Some(normal) = normal(first, second, row, column, mesh) else {
+                continue;
             };
+            let approach = closing[0] * normal[0] + closing[1] * normal[1];
+            if approach <= 0.0 {
+                continue;
+            }
+            let slide = [
+                closing[0] - approach * normal[0],
+                closing[1] - approach * normal[1],
+            ];
+            let speed = slide[0].hypot(slide[1]);
+            let grip = if speed > 0.0 {
+                (coefficient * approach / speed).min(1.0)
+            } else {
+                0.0
+            };
+            let impulse = [0, 1].map(|k| reduced * (approach * normal[k] + grip * slide[k]));
             for (k, part) in impulse.into_iter().enumerate() {
                 first.impulse[a][k] += part;
                 second.impulse[b][k] -= part;

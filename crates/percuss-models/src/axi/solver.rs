@@ -256,23 +256,7 @@ impl Grid {
         let (wave, speed) = (most(|s| s.wave_squared), most(|s| s.speed_squared));
         self.time_step = self.courant * self.mesh.cell / (wave + speed);
         let (time_step, mesh) = (self.time_step, self.mesh);
-        let mut passed = 0.0;
-        for second in 1..self.bodies.len() {
-            let (before, after) = self.bodies.split_at_mut(second);
-            for (first, body) in before.iter_mut().enumerate() {
-                let other = &mut after[0].field;
-                let impulse = exchange_contact_impulses(
-                    self.contact,
-                    &mut body.field,
-                    other,
-                    &mesh,
-                    time_step,
-                );
-                if first == 0 {
-                    passed += impulse;
-                }
-            }
-        }
+        let passed = exchange_contact_impulses(self.contact, &mut self.bodies, &mesh, time_step);
         let mut total = RowSums::default();
         for (body, supports) in self.bodies.iter_mut().zip(&self.supports) {
             let columns = body.field.columns;

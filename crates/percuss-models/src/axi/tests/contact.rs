@@ -7,7 +7,7 @@ use crate::axi::{
     body::Body,
     boundary::{BoundaryCondition, BoundaryConditions},
     contact::Contact,
-    field::Field,
+    field::{Field, MASS},
     law::Law,
 };
 use crate::solver::Control;
@@ -97,6 +97,48 @@ fn sticking_bars_are_one_bar() {
         assert!((velocity - share).abs() < 5e-2);
     }
     assert!(solver.energy().residual().abs() < 2e-4);
+    assert!(solver.momentum().residual().abs() < 1e-12);
+}
+
+/// Layers of less than two cells meet the same nodes, where three bodies get one velocity.
+#[test]
+fn bodies_that_stick_at_a_node_have_one_velocity() {
+    let cell = RADIUS / 4.0;
+    let slab = |from: f64, to: f64, speed: f64| {
+        let sections = rectangle((0.0, RADIUS), (from * cell, to * cell), 0.5 * cell);
+        body(steel(), sections, &uniform([0.0, speed]))
+    };
+    let bodies = vec![
+        slab(-8.0, 0.0, SPEED),
+        slab(0.0, 1.5, 0.0),
+        slab(1.5, 3.0, -SPEED),
+    ];
+    let mut solver = solver(bodies, cell);
+    solver.contact = Contact::Sticking;
+    for _ in 0..20 {
+        assert!(solver.advance());
+        let mut met = 0;
+        let [first, second, third] = [0, 1, 2].map(|index: usize| &solver.bodies[index].field);
+        for row in first.first_row..first.first_row + first.rows as isize {
+            for column in 1..first.columns {
+                let at = [first, second, third].map(|field| {
+                    let node = field.index(row, column)?;
+                    (field.nodes[node][MASS] > 0.0).then(|| field.velocity[node])
+                });
+                let [Some(a), Some(b), Some(c)] = at else {
+                    continue;
+                };
+                met += 1;
+                for k in [0, 1] {
+                    let apart = (a[k] - b[k]).abs().max((a[k] - c[k]).abs());
+                    assert!(apart < 1e-9 * SPEED, "{a:?} {b:?} {c:?}");
+                }
+            }
+        }
+        assert!(met > 4);
+    }
+    let energy = solver.energy();
+    assert!(energy.contact > 0.0 && energy.residual().abs() < 2e-4);
     assert!(solver.momentum().residual().abs() < 1e-12);
 }
 
