@@ -137,56 +137,116 @@ fn least_near(place: f64, value: impl Fn(f64) -> f64) -> f64 {
 /// Growth of a hole through the plate, whose metal thickens it out to a radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Hole {
-    /// Pressure on the wall without inertia [Pa].
-    pub pressure: f64,
-    /// Radius of the moving metal over that of the hole.
+    /// Power over the speed of the nose, without inertia [N].
+    pub force: f64,
+    /// Radius of the moving metal over that of the widest part of the hole.
     pub extent: f64,
     /// Coefficient of the inertial pressure `B ρ ċ²`.
     pub inertia: f64,
 }
 
+/// Part of the plate's thickness around the nose.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Layer {
+    /// Radius of the hole [m].
+    pub radius: f64,
+    /// Volume that the hole gains in this layer over the distance that the nose moves, `2π c c′ Δz` [m2].
+    pub gain: f64,
+}
+
+/// Layers of the plate.
+pub(super) const LAYERS: usize = 16;
+
+/// Stress of metal that moves around a growing hole, by the radius out to which it moves.
+#[derive(Debug)]
+pub(super) struct HoleStress {
+    /// Power over the gain of volume [Pa] at the extents `1 + e^x`, x from `CLOSEST` in steps of `SPACING`.
+    volume: Vec<f64>,
+    /// Flow stress at rest [Pa].
+    edge: f64,
+}
+
+const CLOSEST: f64 = -7.0;
+const SPACING: f64 = 0.125;
+const EXTENTS: u32 = 112;
+
 /// Largest radius of moving metal in radii of the hole.
 const WIDEST_HOLE: f64 = 1e3;
 const PANELS: u32 = 12;
 
-/// The field of least power around a hole of a radius [m] that grows at a speed [m/s] in a plate of a thickness [m].
-///
-/// `v_r = ċ c (R² − r²)/(r (R² − c²))` and `v_z = 2 z ċ c/(R² − c²)`: no volume changes, nothing moves inwards from R, where the metal
-/// shears over the thickness. The strain of a ring is that of a hole grown from nothing in plane strain, `−ln(1 − c²/r²)/√3`.
-///
-/// `near`: radius of the moving metal over that of the hole in a similar field, where one is known.
-pub(super) fn hole(
-    flow: &Flow,
-    radius: f64,
-    thickness: f64,
-    growth: f64,
-    near: Option<f64>,
-) -> Hole {
-    let pressure = |extent: f64| {
-        let square = extent * extent;
-        let span = extent.ln() / f64::from(PANELS);
-        let volume: f64 = (0..PANELS)
-            .map(|i| {
+impl HoleStress {
+    /// Around a hole that grows at a strain rate of this order [1/s].
+    pub fn new(flow: &Flow, nominal_rate: f64) -> Self {
+        let volume = |node: u32| {
+            let extent = 1.0 + (CLOSEST + SPACING * f64::from(node)).exp();
+            let square = extent * extent;
+            let span = extent.ln() / f64::from(PANELS);
+            let panel = |i: u32| {
                 let place = ((f64::from(i) + 0.5) * span).exp();
                 let part = square / (place * place);
                 let (radial, hoop, axial) = (-(part + 1.0), part - 1.0, 2.0);
                 let sum: f64 = radial * radial + hoop * hoop + axial * axial;
                 let rate = (2.0 / 3.0 * sum).sqrt() / (square - 1.0);
                 let strain = -(-1.0 / (place * place)).ln_1p() / SQRT_3;
-                flow.stress(strain, rate * growth / radius) * rate * place * place * span
-            })
-            .sum();
-        let edge = flow.stress(0.0, growth / radius) / SQRT_3;
-        volume + edge * extent * thickness / (2.0 * radius * (square - 1.0))
+                flow.stress(strain, rate * nominal_rate) * rate * place * place * span
+            };
+            (0..PANELS).map(panel).sum()
+        };
+        Self {
+            volume: (0..EXTENTS).map(volume).collect(),
+            edge: flow.stress(0.0, nominal_rate),
+        }
+    }
+
+    fn at(&self, extent: f64) -> f64 {
+        let last = self.volume.len() - 1;
+        let place = ((extent - 1.0).ln() - CLOSEST) / SPACING;
+        // Beyond the last node the stress goes on rising with the logarithm.
+        let node = (place.max(0.0) as usize).min(last - 1);
+        let (below, above) = (self.volume[node], self.volume[node + 1]);
+        below + (place - node as f64) * (above - below)
+    }
+}
+
+/// The field of least power around a hole through layers of a plate of a thickness [m].
+///
+/// In a layer whose hole grows at ċ, `v_r = ċ c (R² − r²)/(r (R² − c²))` with a common R, where nothing moves inwards and the metal shears over
+/// the thickness; no volume changes, so that the layer thickens at `2 ċ c/(R² − c²)`. Metal moves away from the middle of the plate, which
+/// needs the least shear. The strain of a ring is that of a hole grown from nothing in plane strain, `−ln(1 − c²/r²)/√3`.
+///
+/// `near`: radius of the moving metal over that of the hole in a similar field, where one is known.
+pub(super) fn hole(
+    stress: &HoleStress,
+    layers: &[Layer; LAYERS],
+    thickness: f64,
+    near: Option<f64>,
+) -> Hole {
+    let widest = layers.iter().fold(0.0_f64, |most, l| most.max(l.radius));
+    let height = thickness / LAYERS as f64;
+    let power = |extent: f64| {
+        let edge = extent * widest;
+        let thickening = |l: &Layer| l.gain / PI / (edge * edge - l.radius * l.radius);
+        let (mut volume, mut moved, mut all) = (0.0, [0.0; LAYERS], 0.0);
+        for (l, moved) in layers.iter().zip(&mut moved) {
+            if l.gain > 0.0 {
+                volume += l.gain * stress.at(edge / l.radius);
+            }
+            let own = thickening(l);
+            *moved = all + 0.5 * own;
+            all += own;
+        }
+        let middle = 0.5 * (moved[LAYERS / 2 - 1] + moved[LAYERS / 2]);
+        let shear: f64 = moved.iter().map(|v| (v - middle).abs()).sum();
+        volume + 2.0 * PI * edge * height * shear * stress.edge / SQRT_3
     };
-    let gap = |log: f64| pressure(1.0 + log.exp());
+    let gap = |log: f64| power(1.0 + log.exp());
     let near = near.map_or_else(
         || least(1e-3_f64.ln(), WIDEST_HOLE.ln(), 20, gap),
         |extent| (extent - 1.0).ln(),
     );
     let extent = 1.0 + least_near(near, gap).exp();
     Hole {
-        pressure: pressure(extent),
+        force: power(extent),
         extent,
         inertia: hole_inertia(extent),
     }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{
-    fields::{Rim, Slip, hole, punch, rim},
+    fields::{LAYERS, Layer, Rim, Slip, hole, punch, rim},
     motion::{Impact, MotionState},
 };
 use crate::{analytic::nose_shape::radius, material::DamageState, regime::nose_factor};
@@ -122,10 +122,20 @@ impl Impact {
         }
         let factor = nose_factor(self.nose);
         let growth = relative * factor.sqrt();
-        let hole = hole(&self.flow, front, self.thickness, growth, *extent);
+        let height = self.thickness / LAYERS as f64;
+        let mut layers = [Layer::default(); LAYERS];
+        for (i, layer) in layers.iter_mut().enumerate() {
+            let behind = sunk - (i as f64 + 0.5) * height;
+            let (wide, narrow) = (at(behind + 0.5 * height), at(behind - 0.5 * height));
+            *layer = Layer {
+                radius: (0.5 * (wide * wide + narrow * narrow)).sqrt(),
+                gain: PI * (wide * wide - narrow * narrow),
+            };
+        }
+        let hole = hole(&self.hole_stress, &layers, self.thickness, *extent);
         *extent = Some(hole.extent);
-        let pressure = hole.pressure.min(self.cavity_pressures[1]);
+        let slow = hole.force.min(self.cavity_pressures[1] * contact);
         let inertial = hole.inertia * self.density * growth * growth;
-        (pressure * contact, inertial * contact)
+        (slow, inertial * contact)
     }
 }

@@ -12,6 +12,7 @@ mod tests;
 use std::{cell::RefCell, collections::VecDeque};
 
 use self::{
+    fields::HoleStress,
     flow::Flow,
     motion::{Impact, Perforation},
 };
@@ -70,6 +71,8 @@ const BLUNT: FirstChoice = FirstChoice {
 fn impact(scenario: &Scenario, case: &PlateImpact<'_>) -> Option<Impact> {
     let options = &scenario.options.power_balance;
     let plate = case.plate;
+    let nominal_rate = order_of_limit(case)? / case.diameter;
+    let flow = Flow::new(plate, options, nominal_rate);
     Some(Impact {
         mass: case.mass,
         diameter: case.diameter,
@@ -77,7 +80,8 @@ fn impact(scenario: &Scenario, case: &PlateImpact<'_>) -> Option<Impact> {
         thickness: case.thickness,
         density: plate.density.si(),
         impedance: flexural_impedance(plate, case.thickness),
-        flow: Flow::new(plate, options, order_of_limit(case)? / case.diameter),
+        hole_stress: HoleStress::new(&flow, nominal_rate),
+        flow,
         damage: plate.damage.as_ref().map(|damage| damage.prepare(plate)),
         cavity_pressures: [
             cavity_expansion_pressure(plate)?,

@@ -1,7 +1,7 @@
 //! Perforation in time: projectile, plug and dish, by steps of least power.
 
 use super::{
-    fields::{Dish, Rim, least},
+    fields::{Dish, HoleStress, Rim, least},
     flow::Flow,
     forces::Forces,
     links::{BODIES, Body, Row, Step, potential, step},
@@ -23,6 +23,8 @@ pub(super) struct Impact {
     pub density: f64,
     /// Flow stress of the plate.
     pub flow: Flow,
+    /// Stress around a growing hole.
+    pub hole_stress: HoleStress,
     /// Damage of the plate's metal, where its record has one.
     pub damage: Option<PreparedDamage>,
     /// Pressure of a spherical and a cylindrical cavity in the plate's metal [Pa].

@@ -1,7 +1,7 @@
 use std::f64::consts::PI;
 
 use super::{
-    fields::{Dish, Slip, hole, punch, rim},
+    fields::{Dish, HoleStress, LAYERS, Layer, Slip, hole, punch, rim},
     flow::{Flow, METALS, Metal, OTHER_METALS, own_melting_heat},
     history, impact,
     links::{Body, Row, step},
@@ -228,19 +228,49 @@ fn the_band_of_a_power_law_has_the_width_of_its_exponent() {
 /// Thicker plates resist the opening of a hole more, up to the pressure of a cavity, which a thick plate has exactly.
 #[test]
 fn a_hole_in_a_thick_plate_has_the_pressure_of_a_cavity() {
-    let flow = flow(PERFECT);
+    let stress = HoleStress::new(&flow(PERFECT), 10.0);
+    // The same growth in all layers.
+    let even = |radius: f64, thickness: f64| {
+        let layer = Layer {
+            radius,
+            gain: 2.0 * PI * radius * thickness / LAYERS as f64,
+        };
+        let hole = hole(&stress, &[layer; LAYERS], thickness, None);
+        (hole.force / (2.0 * PI * radius * thickness), hole)
+    };
     let mut before = 0.0;
     for thickness in [0.001, 0.01, 0.1, 1.0, 10.0] {
-        let hole = hole(&flow, 0.01, thickness, 10.0, None);
-        assert!(hole.pressure > before && hole.extent > 1.0, "{hole:?}");
-        before = hole.pressure;
+        let (pressure, hole) = even(0.01, thickness);
+        assert!(pressure > before && hole.extent > 1.0, "{hole:?}");
+        before = pressure;
     }
+    // The least over R of σ[∫ε̇ r dr + (R h/2√3 c)/(R² − c²)] at h/c = 3.5, by quadrature.
+    let exact = (1..4000)
+        .map(|i| {
+            let extent = 1.0 + 1e-3 * f64::from(i);
+            let (square, panels) = (extent * extent, 2000);
+            let step = extent.ln() / f64::from(panels);
+            let volume: f64 = (0..panels)
+                .map(|j| {
+                    let r2 = ((2.0 * f64::from(j) + 1.0) * step).exp();
+                    let part = square / r2;
+                    (2.0 / 3.0 * (2.0 * part * part + 6.0)).sqrt() / (square - 1.0) * r2 * step
+                })
+                .sum();
+            volume + extent * 3.5 / (2.0 * 3.0_f64.sqrt() * (square - 1.0))
+        })
+        .fold(f64::INFINITY, f64::min);
+    let (pressure, _) = even(0.01, 0.035);
+    assert!(
+        (pressure / 400e6 / exact - 1.0).abs() < 3e-3,
+        "{pressure} {exact}"
+    );
     let thick = of(PERFECT, NOSES[1], 5000.0, "");
     let (force, _) = thick.opening(1.0, 0.0, &mut None);
     let exact = thick.cavity_pressures[1] * PI * 1e-4;
     assert!((force / exact - 1.0).abs() < 1e-12, "{force} {exact}");
     // Of an unbounded field, ln(R/c) − 3/4.
-    let wide = hole(&flow, 1e-5, 10.0, 0.0, None);
+    let (_, wide) = even(1e-5, 10.0);
     assert!(
         (wide.inertia - (wide.extent.ln() - 0.75)).abs() < 1e-4 * wide.inertia,
         "{wide:?}"
