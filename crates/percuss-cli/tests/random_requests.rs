@@ -17,7 +17,7 @@ use std::{
 
 use serde_json::{Value, json};
 
-use crate::support::Draw;
+use crate::support::{Draw, status};
 
 const PAPER: &str = include_str!("../../../cases/paper-table1/scenario.toml");
 
@@ -45,21 +45,23 @@ impl Served {
     }
 
     /// Sends bytes as they are; gives the status, 0 for none, and the response.
-    fn raw(&self, request: &[u8], goes_away: bool) -> (u32, Vec<u8>) {
+    fn raw(&self, request: &[u8], then: Then) -> (u32, Vec<u8>) {
         let mut stream = TcpStream::connect(&self.address).unwrap();
         stream
             .set_read_timeout(Some(Duration::from_secs(120)))
             .unwrap();
         // A server may refuse a request before it has read all of it, and close before the end.
         let _ = stream.write_all(request);
-        if goes_away {
-            let _ = stream.shutdown(Shutdown::Write);
+        match then {
+            Then::Waits => {}
+            Then::ClosesItsHalf => {
+                let _ = stream.shutdown(Shutdown::Write);
+            }
+            Then::GoesAway => return (0, Vec::new()),
         }
         let mut response = Vec::new();
         let _ = stream.read_to_end(&mut response);
-        let head = String::from_utf8_lossy(&response[..response.len().min(20)]).into_owned();
-        let status = head.split(' ').nth(1).and_then(|code| code.parse().ok());
-        (status.unwrap_or(0), response)
+        (status(&response), response)
     }
 
     /// Its memory [bytes].
@@ -93,6 +95,14 @@ const PATHS: [&str; 9] = [
     "/api/validation",
     "/",
 ];
+
+/// What a client does after its request.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Then {
+    Waits,
+    ClosesItsHalf,
+    GoesAway,
+}
 
 /// A body: valid, with some bytes changed, or with a value of another kind somewhere.
 fn body(draw: &mut Draw) -> Vec<u8> {
@@ -133,8 +143,8 @@ fn body(draw: &mut Draw) -> Vec<u8> {
     bytes
 }
 
-/// A request, often a broken one, and whether its client goes away in the middle of it.
-fn request(draw: &mut Draw, served: &Served) -> (Vec<u8>, bool) {
+/// A request, whether it is one of HTTP, and what its client does then.
+fn request(draw: &mut Draw, served: &Served) -> (Vec<u8>, bool, Then) {
     let path = match draw.below(REFINEMENTS) {
         0 => "/api/refinement",
         _ => draw.of(&PATHS),
@@ -147,21 +157,38 @@ fn request(draw: &mut Draw, served: &Served) -> (Vec<u8>, bool) {
     )
     .into_bytes();
     request.extend_from_slice(&body);
+    // Who sends less than it said has to close its half, or would be waited for.
     match draw.below(6) {
         0 => {
             request.truncate(draw.below(request.len()));
-            return (request, true);
+            (request, false, Then::ClosesItsHalf)
         }
         1 => {
             for _ in 0..=draw.below(4) {
                 let place = draw.below(request.len().min(200));
                 request[place] = draw.below(256) as u8;
             }
+            (request, false, Then::ClosesItsHalf)
         }
-        _ => return (request, false),
+        2 => (request, true, Then::ClosesItsHalf),
+        3 if draw.below(10) == 0 => (request, true, Then::GoesAway),
+        _ => (request, true, Then::Waits),
     }
-    // A length that was changed would be waited for.
-    (request, true)
+}
+
+/// Whether a response has come to its end.
+fn is_whole(response: &[u8]) -> bool {
+    let blank = response.windows(4).position(|four| four == b"\r\n\r\n");
+    let (head, body) = response.split_at(blank.map_or(response.len(), |place| place + 4));
+    let head = String::from_utf8_lossy(head).to_lowercase();
+    let length = head
+        .lines()
+        .find_map(|line| line.strip_prefix("content-length: "));
+    match (length, head.starts_with("http/1.1 100")) {
+        (_, true) => is_whole(body),
+        (Some(length), _) => length.parse() == Ok(body.len()),
+        (None, _) => body.ends_with(b"0\r\n\r\n"),
+    }
 }
 
 /// Sends requests until all are sent; gives how many had each status.
@@ -174,10 +201,16 @@ fn send(served: &Served, seed: u64, sent: &AtomicUsize, settled: &AtomicU64) -> 
         if number >= count {
             return by_status;
         }
-        let (bytes, goes_away) = request(&mut draw, served);
-        let (status, response) = served.raw(&bytes, goes_away);
+        let (bytes, is_request, then) = request(&mut draw, served);
+        let (status, response) = served.raw(&bytes, then);
         *by_status.entry(status).or_insert(0) += 1;
         assert!(status != 500, "{}", String::from_utf8_lossy(&bytes));
+        assert!(
+            !is_request || then == Then::GoesAway || is_whole(&response),
+            "{then:?}: {} gave {}",
+            String::from_utf8_lossy(&bytes),
+            String::from_utf8_lossy(&response)
+        );
         // A refusal gives the text of the case back, and little else.
         assert!(
             status < 400 || response.len() < 20_000 + bytes.len(),
@@ -221,5 +254,5 @@ fn requests_at_random_are_answered_in_flat_memory() {
         "GET / HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n",
         served.address
     );
-    assert_eq!(served.raw(page.as_bytes(), false).0, 200);
+    assert_eq!(served.raw(page.as_bytes(), Then::Waits).0, 200);
 }

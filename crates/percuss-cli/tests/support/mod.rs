@@ -17,7 +17,7 @@ use std::{
 use serde_json::Value;
 use tempfile::TempDir;
 
-pub use inputs::{CASE, Draw};
+pub use inputs::{CASE, Draw, status};
 
 /// Folder of these tests.
 pub const TESTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests");
