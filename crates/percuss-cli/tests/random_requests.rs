@@ -10,7 +10,10 @@ use std::{
     io::{BufRead, BufReader, Read, Write},
     net::{Shutdown, TcpStream},
     process::{Child, Command, Stdio},
-    sync::atomic::{AtomicU64, AtomicUsize, Ordering},
+    sync::{
+        Mutex,
+        atomic::{AtomicUsize, Ordering},
+    },
     thread,
     time::Duration,
 };
@@ -84,6 +87,8 @@ impl Drop for Served {
 const CLIENTS: usize = 4;
 /// The axisymmetric refinement computes until its limit of 2 s: one request in as many asks for it.
 const REFINEMENTS: usize = 500;
+/// Parts of the test after which the memory is looked at.
+const TENTHS: usize = 10;
 const PATHS: [&str; 9] = [
     "/api/answer",
     "/api/answer",
@@ -192,7 +197,12 @@ fn is_whole(response: &[u8]) -> bool {
 }
 
 /// Sends requests until all are sent; gives how many had each status.
-fn send(served: &Served, seed: u64, sent: &AtomicUsize, settled: &AtomicU64) -> BTreeMap<u32, u64> {
+fn send(
+    served: &Served,
+    seed: u64,
+    sent: &AtomicUsize,
+    memory: &Mutex<Vec<u64>>,
+) -> BTreeMap<u32, u64> {
     let count = requests();
     let mut draw = Draw(seed);
     let mut by_status = BTreeMap::new();
@@ -217,8 +227,8 @@ fn send(served: &Served, seed: u64, sent: &AtomicUsize, settled: &AtomicU64) -> 
             "{}",
             String::from_utf8_lossy(&response)
         );
-        if number == count / 2 {
-            settled.store(served.memory(), Ordering::Relaxed);
+        if number % (count / TENTHS).max(1) == 0 {
+            memory.lock().unwrap().push(served.memory());
         }
     }
 }
@@ -231,13 +241,13 @@ fn requests() -> usize {
 fn requests_at_random_are_answered_in_flat_memory() {
     let served = Served::new();
     let seed: u64 = std::env::var("PERCUSS_SEED").map_or(11, |text| text.parse().unwrap());
-    let (sent, settled) = (AtomicUsize::new(0), AtomicU64::new(0));
+    let (sent, memory) = (AtomicUsize::new(0), Mutex::default());
     let mut by_status: BTreeMap<u32, u64> = BTreeMap::new();
     thread::scope(|scope| {
         let clients = (0..CLIENTS).map(|client| {
             let seed = seed.wrapping_mul(1000) + client as u64;
-            let (served, sent, settled) = (&served, &sent, &settled);
-            scope.spawn(move || send(served, seed, sent, settled))
+            let (served, sent, memory) = (&served, &sent, &memory);
+            scope.spawn(move || send(served, seed, sent, memory))
         });
         for client in clients.collect::<Vec<_>>() {
             for (status, number) in client.join().unwrap() {
@@ -245,11 +255,17 @@ fn requests_at_random_are_answered_in_flat_memory() {
             }
         }
     });
-    let settled = settled.into_inner();
-    let grown = served.memory().saturating_sub(settled);
-    println!("{by_status:?}, memory grown by {grown} bytes from {settled}");
+    let memory = memory.into_inner().unwrap();
+    let settled = memory[TENTHS / 2];
+    let end = served.memory();
+    let mib: Vec<u64> = memory
+        .iter()
+        .chain([&end])
+        .map(|bytes| bytes >> 20)
+        .collect();
+    println!("{by_status:?}, memory at each tenth {mib:?} MiB");
     assert!(by_status.contains_key(&200) && by_status.contains_key(&400));
-    assert!(settled > 0 && grown < 32 << 20, "{grown}");
+    assert!(end.saturating_sub(settled) < 32 << 20, "{mib:?} MiB");
     let page = format!(
         "GET / HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n",
         served.address
