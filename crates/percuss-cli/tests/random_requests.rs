@@ -6,7 +6,6 @@
 
 use std::{
     collections::BTreeMap,
-    fs,
     io::{BufRead, BufReader, Read, Write},
     net::{Shutdown, TcpStream},
     process::{Child, Command, Stdio},
@@ -20,7 +19,7 @@ use std::{
 
 use serde_json::{Value, json};
 
-use crate::support::{Draw, status};
+use crate::support::{Draw, memory_of, status};
 
 const PAPER: &str = include_str!("../../../cases/paper-table1/scenario.toml");
 
@@ -65,14 +64,6 @@ impl Served {
         let mut response = Vec::new();
         let _ = stream.read_to_end(&mut response);
         (status(&response), response)
-    }
-
-    /// Its memory [bytes].
-    fn memory(&self) -> u64 {
-        let status = fs::read_to_string(format!("/proc/{}/status", self.process.id())).unwrap();
-        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
-        let kib = line.and_then(|line| line.split_whitespace().next());
-        kib.unwrap().parse::<u64>().unwrap() * 1024
     }
 }
 
@@ -227,8 +218,11 @@ fn send(
             "{}",
             String::from_utf8_lossy(&response)
         );
-        if number % (count / TENTHS).max(1) == 0 {
-            memory.lock().unwrap().push(served.memory());
+        if number.is_multiple_of((count / TENTHS).max(1)) {
+            memory
+                .lock()
+                .unwrap()
+                .push(memory_of(served.process.id())[0]);
         }
     }
 }
@@ -257,7 +251,7 @@ fn requests_at_random_are_answered_in_flat_memory() {
     });
     let memory = memory.into_inner().unwrap();
     let settled = memory[TENTHS / 2];
-    let end = served.memory();
+    let [end, _] = memory_of(served.process.id());
     let mib: Vec<u64> = memory
         .iter()
         .chain([&end])
