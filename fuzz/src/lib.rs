@@ -14,7 +14,7 @@ mod fuzz {
 mod support {
     mod inputs;
 
-    pub use inputs::{CASE, Draw};
+    pub use inputs::{CASE, Draw, status};
 
     /// Folder of the tests of the program.
     pub const TESTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/percuss-cli/tests");

@@ -139,7 +139,10 @@ impl Failure {
             | Self::SeedsStopped { .. } => 130,
             Self::Library(Error::Numerical(_) | Error::Cancelled { .. }) | Self::Report(_) => 3,
             Self::Library(Error::Read { .. }) | Self::Write { .. } | Self::Output(_) => 4,
-            Self::Library(Error::Input(error)) if error.subject == Subject::MaterialFile => 4,
+            Self::Library(Error::Input(error)) => match error.subject {
+                Subject::MaterialFile | Subject::CaseFile => 4,
+                Subject::Material | Subject::Case => 2,
+            },
             Self::Library(_) => 2,
         })
     }

@@ -48,16 +48,29 @@ fn ended(folder: &Path, arguments: &[&str]) -> (i32, String) {
 #[test]
 fn pipes_and_devices_are_refused_wherever_a_file_is_named() {
     let folder = folder();
-    let commands: [&[&str]; 7] = [
+    let fit = ["calibrate", "--fit", "chain.constraint_factor=1..4"];
+    let fit_with = |words: &[&'static str]| [&fit, words].concat();
+    let (cases, data) = (fit_with(&[]), fit_with(&["--data"]));
+    let materials = fit_with(&["scenario.toml", "--materials"]);
+    let commands: [&[&str]; 21] = [
         &["run"],
+        &["compare"],
+        &["converge"],
+        &["uncertainty"],
+        &["export", "--to", "lammps", "--out", "lammps"],
+        &["limit"],
         &["limit", "--tests"],
         &["sweep", "--out", "rows"],
-        &[
-            "calibrate",
-            "--fit",
-            "chain.constraint_factor=1..4",
-            "--data",
-        ],
+        &cases,
+        &data,
+        &materials,
+        &["validate", "--data"],
+        &["validate", "--data", "builtin", "--materials"],
+        &["materials", "--case"],
+        &["materials", "--file"],
+        &["materials", "compare", "copper", "iron", "--case"],
+        &["materials", "compare", "copper", "iron", "--file"],
+        &["serve", "--port", "0"],
         &["benchmark", "--reference"],
         &["benchmark", "--paper-case"],
         &["serve", "--port", "0", "--token-file"],
@@ -71,6 +84,26 @@ fn pipes_and_devices_are_refused_wherever_a_file_is_named() {
                 "{command:?} {file}: {said}"
             );
         }
+    }
+}
+
+/// The same of files that other files name.
+#[test]
+fn pipes_are_refused_in_the_files_that_name_them() {
+    let folder = folder();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("sweep.toml", &SWEEP.replace("scenario.toml", "pipe"));
+    write("case.toml", &format!("material_files = ['pipe']\n{CASE}"));
+    for command in [
+        &["sweep", "sweep.toml", "--out", "rows"][..],
+        &["run", "case.toml"],
+    ] {
+        let (code, said) = ended(folder.path(), command);
+        assert_eq!(code, 4, "{command:?}: {said}");
+        assert!(
+            flat(&said).contains("it is not a regular file"),
+            "{command:?}: {said}"
+        );
     }
 }
 

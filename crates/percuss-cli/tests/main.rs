@@ -17,6 +17,7 @@ mod layout;
 mod limit;
 mod materials;
 mod measured_curves;
+mod memory;
 mod models;
 mod modules;
 mod moved;

@@ -6,18 +6,20 @@
 
 use std::{
     collections::BTreeMap,
-    fs,
     io::{BufRead, BufReader, Read, Write},
     net::{Shutdown, TcpStream},
     process::{Child, Command, Stdio},
-    sync::atomic::{AtomicU64, AtomicUsize, Ordering},
+    sync::{
+        Mutex,
+        atomic::{AtomicUsize, Ordering},
+    },
     thread,
     time::Duration,
 };
 
 use serde_json::{Value, json};
 
-use crate::support::Draw;
+use crate::support::{Draw, memory_of, status};
 
 const PAPER: &str = include_str!("../../../cases/paper-table1/scenario.toml");
 
@@ -45,29 +47,23 @@ impl Served {
     }
 
     /// Sends bytes as they are; gives the status, 0 for none, and the response.
-    fn raw(&self, request: &[u8], goes_away: bool) -> (u32, Vec<u8>) {
+    fn raw(&self, request: &[u8], then: Then) -> (u32, Vec<u8>) {
         let mut stream = TcpStream::connect(&self.address).unwrap();
         stream
             .set_read_timeout(Some(Duration::from_secs(120)))
             .unwrap();
         // A server may refuse a request before it has read all of it, and close before the end.
         let _ = stream.write_all(request);
-        if goes_away {
-            let _ = stream.shutdown(Shutdown::Write);
+        match then {
+            Then::Waits => {}
+            Then::ClosesItsHalf => {
+                let _ = stream.shutdown(Shutdown::Write);
+            }
+            Then::GoesAway => return (0, Vec::new()),
         }
         let mut response = Vec::new();
         let _ = stream.read_to_end(&mut response);
-        let head = String::from_utf8_lossy(&response[..response.len().min(20)]).into_owned();
-        let status = head.split(' ').nth(1).and_then(|code| code.parse().ok());
-        (status.unwrap_or(0), response)
-    }
-
-    /// Its memory [bytes].
-    fn memory(&self) -> u64 {
-        let status = fs::read_to_string(format!("/proc/{}/status", self.process.id())).unwrap();
-        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
-        let kib = line.and_then(|line| line.split_whitespace().next());
-        kib.unwrap().parse::<u64>().unwrap() * 1024
+        (status(&response), response)
     }
 }
 
@@ -82,6 +78,8 @@ impl Drop for Served {
 const CLIENTS: usize = 4;
 /// The axisymmetric refinement computes until its limit of 2 s: one request in as many asks for it.
 const REFINEMENTS: usize = 500;
+/// Parts of the test after which the memory is looked at.
+const TENTHS: usize = 10;
 const PATHS: [&str; 9] = [
     "/api/answer",
     "/api/answer",
@@ -93,6 +91,14 @@ const PATHS: [&str; 9] = [
     "/api/validation",
     "/",
 ];
+
+/// What a client does after its request.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Then {
+    Waits,
+    ClosesItsHalf,
+    GoesAway,
+}
 
 /// A body: valid, with some bytes changed, or with a value of another kind somewhere.
 fn body(draw: &mut Draw) -> Vec<u8> {
@@ -133,8 +139,8 @@ fn body(draw: &mut Draw) -> Vec<u8> {
     bytes
 }
 
-/// A request, often a broken one, and whether its client goes away in the middle of it.
-fn request(draw: &mut Draw, served: &Served) -> (Vec<u8>, bool) {
+/// A request, whether it is one of HTTP, and what its client does then.
+fn request(draw: &mut Draw, served: &Served) -> (Vec<u8>, bool, Then) {
     let path = match draw.below(REFINEMENTS) {
         0 => "/api/refinement",
         _ => draw.of(&PATHS),
@@ -147,25 +153,47 @@ fn request(draw: &mut Draw, served: &Served) -> (Vec<u8>, bool) {
     )
     .into_bytes();
     request.extend_from_slice(&body);
+    // Who sends less than it said has to close its half, or would be waited for.
     match draw.below(6) {
         0 => {
             request.truncate(draw.below(request.len()));
-            return (request, true);
+            (request, false, Then::ClosesItsHalf)
         }
         1 => {
             for _ in 0..=draw.below(4) {
                 let place = draw.below(request.len().min(200));
                 request[place] = draw.below(256) as u8;
             }
+            (request, false, Then::ClosesItsHalf)
         }
-        _ => return (request, false),
+        2 => (request, true, Then::ClosesItsHalf),
+        3 if draw.below(10) == 0 => (request, true, Then::GoesAway),
+        _ => (request, true, Then::Waits),
     }
-    // A length that was changed would be waited for.
-    (request, true)
+}
+
+/// Whether a response has come to its end.
+fn is_whole(response: &[u8]) -> bool {
+    let blank = response.windows(4).position(|four| four == b"\r\n\r\n");
+    let (head, body) = response.split_at(blank.map_or(response.len(), |place| place + 4));
+    let head = String::from_utf8_lossy(head).to_lowercase();
+    let length = head
+        .lines()
+        .find_map(|line| line.strip_prefix("content-length: "));
+    match (length, head.starts_with("http/1.1 100")) {
+        (_, true) => is_whole(body),
+        (Some(length), _) => length.parse() == Ok(body.len()),
+        (None, _) => body.ends_with(b"0\r\n\r\n"),
+    }
 }
 
 /// Sends requests until all are sent; gives how many had each status.
-fn send(served: &Served, seed: u64, sent: &AtomicUsize, settled: &AtomicU64) -> BTreeMap<u32, u64> {
+fn send(
+    served: &Served,
+    seed: u64,
+    sent: &AtomicUsize,
+    memory: &Mutex<Vec<u64>>,
+) -> BTreeMap<u32, u64> {
     let count = requests();
     let mut draw = Draw(seed);
     let mut by_status = BTreeMap::new();
@@ -174,18 +202,27 @@ fn send(served: &Served, seed: u64, sent: &AtomicUsize, settled: &AtomicU64) -> 
         if number >= count {
             return by_status;
         }
-        let (bytes, goes_away) = request(&mut draw, served);
-        let (status, response) = served.raw(&bytes, goes_away);
+        let (bytes, is_request, then) = request(&mut draw, served);
+        let (status, response) = served.raw(&bytes, then);
         *by_status.entry(status).or_insert(0) += 1;
         assert!(status != 500, "{}", String::from_utf8_lossy(&bytes));
+        assert!(
+            !is_request || then == Then::GoesAway || is_whole(&response),
+            "{then:?}: {} gave {}",
+            String::from_utf8_lossy(&bytes),
+            String::from_utf8_lossy(&response)
+        );
         // A refusal gives the text of the case back, and little else.
         assert!(
             status < 400 || response.len() < 20_000 + bytes.len(),
             "{}",
             String::from_utf8_lossy(&response)
         );
-        if number == count / 2 {
-            settled.store(served.memory(), Ordering::Relaxed);
+        if number.is_multiple_of((count / TENTHS).max(1)) {
+            memory
+                .lock()
+                .unwrap()
+                .push(memory_of(served.process.id())[0]);
         }
     }
 }
@@ -198,13 +235,13 @@ fn requests() -> usize {
 fn requests_at_random_are_answered_in_flat_memory() {
     let served = Served::new();
     let seed: u64 = std::env::var("PERCUSS_SEED").map_or(11, |text| text.parse().unwrap());
-    let (sent, settled) = (AtomicUsize::new(0), AtomicU64::new(0));
+    let (sent, memory) = (AtomicUsize::new(0), Mutex::default());
     let mut by_status: BTreeMap<u32, u64> = BTreeMap::new();
     thread::scope(|scope| {
         let clients = (0..CLIENTS).map(|client| {
             let seed = seed.wrapping_mul(1000) + client as u64;
-            let (served, sent, settled) = (&served, &sent, &settled);
-            scope.spawn(move || send(served, seed, sent, settled))
+            let (served, sent, memory) = (&served, &sent, &memory);
+            scope.spawn(move || send(served, seed, sent, memory))
         });
         for client in clients.collect::<Vec<_>>() {
             for (status, number) in client.join().unwrap() {
@@ -212,14 +249,20 @@ fn requests_at_random_are_answered_in_flat_memory() {
             }
         }
     });
-    let settled = settled.into_inner();
-    let grown = served.memory().saturating_sub(settled);
-    println!("{by_status:?}, memory grown by {grown} bytes from {settled}");
+    let memory = memory.into_inner().unwrap();
+    let settled = memory[TENTHS / 2];
+    let [end, _] = memory_of(served.process.id());
+    let mib: Vec<u64> = memory
+        .iter()
+        .chain([&end])
+        .map(|bytes| bytes >> 20)
+        .collect();
+    println!("{by_status:?}, memory at each tenth {mib:?} MiB");
     assert!(by_status.contains_key(&200) && by_status.contains_key(&400));
-    assert!(settled > 0 && grown < 32 << 20, "{grown}");
+    assert!(end.saturating_sub(settled) < 32 << 20, "{mib:?} MiB");
     let page = format!(
         "GET / HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n",
         served.address
     );
-    assert_eq!(served.raw(page.as_bytes(), false).0, 200);
+    assert_eq!(served.raw(page.as_bytes(), Then::Waits).0, 200);
 }

@@ -47,6 +47,14 @@ impl Diagnostic {
         }
     }
 
+    /// The same of a case file that cannot be read.
+    pub fn of_case_file(self) -> Self {
+        Self {
+            subject: Subject::CaseFile,
+            ..self
+        }
+    }
+
     /// What is wrong in a file as a whole.
     pub fn whole(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self::at("", message, help)

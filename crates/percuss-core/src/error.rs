@@ -201,6 +201,8 @@ pub enum Subject {
     Material,
     /// A file of materials that cannot be read.
     MaterialFile,
+    /// A case file that another file names and that cannot be read.
+    CaseFile,
 }
 
 /// What is wrong in a case or material file, and where.

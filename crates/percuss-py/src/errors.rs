@@ -43,7 +43,7 @@ fn describe(failure: &Failure, attributes: &Bound<'_, PyDict>) -> PyResult<Optio
             attributes.set_item("help", &error.help)?;
             match error.subject {
                 Subject::Material | Subject::MaterialFile => "MaterialError",
-                Subject::Case => "CaseError",
+                Subject::Case | Subject::CaseFile => "CaseError",
             }
         }
         Failure::Library(Error::NotApplicable { model, refusal }) => {

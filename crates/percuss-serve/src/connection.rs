@@ -9,21 +9,30 @@ use std::{
     io,
     net::IpAddr,
     pin::Pin,
-    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    sync::{
+        Arc, Mutex, MutexGuard, PoisonError,
+        atomic::{AtomicBool, Ordering},
+    },
     task::{Context, Poll},
     time::Duration,
 };
 
+use hyper::Version;
 use tokio::{
-    io::{AsyncRead, AsyncWrite, ReadBuf},
+    io::{AsyncRead, AsyncWrite, Interest, ReadBuf},
+    net::TcpStream,
     sync::{OwnedSemaphorePermit, Semaphore},
-    time::{Instant, Sleep, sleep_until},
+    time::{Instant, Sleep, sleep, sleep_until},
 };
 
 use crate::limits::{CONNECTIONS, CONNECTIONS_OF_PEER, CONNECTIONS_WITHOUT_TOKEN};
 
 /// Bytes that a client has to take per second of waiting for it, beyond its patience.
 const LEAST_RATE: f64 = 16_384.0;
+/// Time between two looks at whether a client is still there.
+const LOOK: Duration = Duration::from_millis(200);
+/// Interim response: of no meaning where nothing was asked for, and every client of HTTP/1.1 has to read over it.
+const INTERIM: &[u8] = b"HTTP/1.1 100 Continue\r\n\r\n";
 
 /// Places for connections.
 #[derive(Debug, Clone)]
@@ -134,6 +143,56 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// What a connection is at.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Line {
+    /// A request is being computed, and nothing of its response is written.
+    is_computing: Arc<AtomicBool>,
+    /// The client does not take what is written.
+    is_full: Arc<AtomicBool>,
+}
+
+/// Request that is computed, until this is dropped.
+pub(crate) struct Computing(Line);
+
+impl Line {
+    pub(crate) fn compute(&self, version: Version) -> Computing {
+        // A client of HTTP/1.0 does not know interim responses.
+        let knows = version >= Version::HTTP_11;
+        self.is_computing.store(knows, Ordering::Relaxed);
+        Computing(self.clone())
+    }
+
+    /// Ends when the client has closed the whole connection, not its own half alone. Both look the same until something is sent: whoever has
+    /// closed the whole then refuses it. Polled by the task that writes responses, which it does not interrupt.
+    pub(crate) async fn is_left(&self, stream: &TcpStream) {
+        loop {
+            sleep(LOOK).await;
+            let Ok(ready) = stream.ready(Interest::READABLE | Interest::WRITABLE).await else {
+                return;
+            };
+            if ready.is_write_closed() {
+                return;
+            }
+            let is_silent =
+                self.is_computing.load(Ordering::Relaxed) && !self.is_full.load(Ordering::Relaxed);
+            if ready.is_read_closed() && is_silent {
+                match stream.try_write(INTERIM) {
+                    Ok(length) if length == INTERIM.len() => {}
+                    Err(error) if error.kind() == io::ErrorKind::WouldBlock => {}
+                    _ => return,
+                }
+            }
+        }
+    }
+}
+
+impl Drop for Computing {
+    fn drop(&mut self) {
+        self.0.is_computing.store(false, Ordering::Relaxed);
+    }
+}
+
 /// Connection whose client has to take what it asked for: all the waiting for it is a patience and a second per [`LEAST_RATE`] bytes.
 pub(crate) struct Patient<S> {
     stream: S,
@@ -141,15 +200,17 @@ pub(crate) struct Patient<S> {
     /// Time that may still be waited.
     left: Duration,
     waiting: Option<(Instant, Pin<Box<Sleep>>)>,
+    line: Line,
 }
 
 impl<S> Patient<S> {
-    pub(crate) fn new(stream: S, patience: Duration) -> Self {
+    pub(crate) fn new(stream: S, patience: Duration, line: Line) -> Self {
         Self {
             stream,
             patience,
             left: patience,
             waiting: None,
+            line,
         }
     }
 
@@ -159,6 +220,9 @@ impl<S> Patient<S> {
         written: Poll<io::Result<usize>>,
         context: &mut Context<'_>,
     ) -> Poll<io::Result<usize>> {
+        self.line
+            .is_full
+            .store(written.is_pending(), Ordering::Relaxed);
         match &written {
             Poll::Ready(result) => {
                 if let Some((since, _)) = self.waiting.take() {

@@ -107,7 +107,7 @@ fn sent(rate: f64) -> io::Result<usize> {
             last: Instant::now(),
             sleep: Box::pin(time::sleep(Duration::ZERO)),
         };
-        let mut patient = Patient::new(reader, Duration::from_millis(500));
+        let mut patient = Patient::new(reader, Duration::from_millis(500), Line::default());
         let bytes = [0; 1 << 16];
         let mut sent = 0;
         while sent < bytes.len() {

@@ -1,6 +1,6 @@
 //! The server: address, routes and connections.
 
-use std::{future, net::SocketAddr, sync::Arc, time::Duration};
+use std::{future, io, net::SocketAddr, sync::Arc, time::Duration};
 
 use axum::{
     Extension, Router,
@@ -9,7 +9,12 @@ use axum::{
     response::IntoResponse,
     routing::{get, post},
 };
-use hyper::server::conn::http1;
+use hyper::{
+    Request,
+    body::Incoming,
+    server::conn::http1,
+    service::{Service, service_fn},
+};
 use hyper_util::{
     rt::{TokioIo, TokioTimer},
     service::TowerToHyperService,
@@ -22,7 +27,7 @@ use tokio::{
 
 use crate::{
     Options, ServeError, assets, cases,
-    connection::{Patient, Place, Places},
+    connection::{Line, Patient, Place, Places},
     files,
     host_guard::HostGuard,
     index::Index,
@@ -174,19 +179,30 @@ async fn accept(listener: TcpListener, routes: Router) -> ! {
     }
 }
 
-/// Serves a connection to its end. A client that does not show the token is given up after a while.
+/// Serves a connection to its end. A client that does not show the token is given up after a while; the run of one that goes away ends. Who
+/// closes only its own half of the connection waits for the response.
 async fn serve(stream: TcpStream, place: Place, routes: Router) {
     // Without this option small responses are delayed.
     let _ = stream.set_nodelay(true);
-    let visitor = place.visitor();
+    let Ok((stream, watched)) = twice(stream) else {
+        return;
+    };
+    let (visitor, line) = (place.visitor(), Line::default());
     let service = TowerToHyperService::new(routes.layer(Extension(visitor.clone())));
+    let service = service_fn(|request: Request<Incoming>| {
+        let computing = line.compute(request.version());
+        let response = service.call(request);
+        async {
+            let _computing = computing;
+            response.await
+        }
+    });
+    let stream = Patient::new(stream, limits::PATIENCE, line.clone());
     let connection = http1::Builder::new()
         .timer(TokioTimer::new())
         .header_read_timeout(limits::ARRIVAL)
-        .serve_connection(
-            TokioIo::new(Patient::new(stream, limits::PATIENCE)),
-            service,
-        );
+        .half_close(true)
+        .serve_connection(TokioIo::new(stream), service);
     let introduction = async {
         time::sleep(limits::INTRODUCTION).await;
         if visitor.is_known() {
@@ -195,7 +211,16 @@ async fn serve(stream: TcpStream, place: Place, routes: Router) {
     };
     // A broken connection needs no action.
     tokio::select! {
+        biased;
         _ = connection => {}
+        () = line.is_left(&watched) => {}
         () = introduction => {}
     }
+}
+
+/// A connection and a second handle of it, to watch it by.
+fn twice(stream: TcpStream) -> io::Result<(TcpStream, TcpStream)> {
+    let stream = stream.into_std()?;
+    let watched = stream.try_clone()?;
+    Ok((TcpStream::from_std(stream)?, TcpStream::from_std(watched)?))
 }

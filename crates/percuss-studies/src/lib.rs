@@ -23,7 +23,7 @@ pub mod validate;
 #[cfg(test)]
 use percuss_core::NumericalError;
 use percuss_core::{
-    Error, Refusal, Scenario, check, document, error, fragments, history, material, options,
+    Error, Refusal, Scenario, check, document, error, fragments, history, lanes, material, options,
     outcome, problem, regime, richardson, scenario, solver, statistics, units, validity,
 };
 use percuss_input::{case, csv_table, inputs};

@@ -68,9 +68,7 @@ pub fn seeds() -> Vec<String> {
 /// A request gets a whole response, or none where it is none itself.
 pub fn request(input: &[u8]) -> End {
     let response = sent(&in_wire_format(input));
-    let head = String::from_utf8_lossy(&response[..response.len().min(20)]).into_owned();
-    let status = head.split(' ').nth(1).and_then(|code| code.parse().ok());
-    match status.unwrap_or(0) {
+    match crate::support::status(&response) {
         500 => Err(format!("{BROKEN}{}", String::from_utf8_lossy(&response))),
         400.. if response.len() > LONGEST_REFUSAL + 2 * input.len() => {
             Err(format!("{BROKEN}a refusal of {} bytes", response.len()))

@@ -24,3 +24,14 @@ impl Draw {
         words[self.below(words.len())]
     }
 }
+
+/// Status of a response of HTTP, after those that come before it; 0 where there is none.
+pub fn status(mut response: &[u8]) -> u32 {
+    // To a client that has closed its half of the connection.
+    while let Some(rest) = response.strip_prefix(b"HTTP/1.1 100 Continue\r\n\r\n") {
+        response = rest;
+    }
+    let head = String::from_utf8_lossy(&response[..response.len().min(20)]);
+    let status = head.split(' ').nth(1).and_then(|code| code.parse().ok());
+    status.unwrap_or(0)
+}

@@ -17,7 +17,7 @@ use std::{
 use serde_json::Value;
 use tempfile::TempDir;
 
-pub use inputs::{CASE, Draw};
+pub use inputs::{CASE, Draw, status};
 
 /// Folder of these tests.
 pub const TESTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests");
@@ -141,6 +141,18 @@ pub fn spawn(folder: &Path, arguments: &[&str]) -> Child {
         .unwrap()
 }
 
+/// Memory of a process [bytes]: now, and the most so far.
+#[cfg(target_os = "linux")]
+pub fn memory_of(process: u32) -> [u64; 2] {
+    let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap();
+    ["VmRSS:", "VmHWM:"].map(|name| {
+        let line = status.lines().find_map(|line| line.strip_prefix(name));
+        let kib = line.and_then(|line| line.split_whitespace().next());
+        // A process that has ended has none.
+        kib.map_or(0, |kib| kib.parse::<u64>().unwrap() * 1024)
+    })
+}
+
 /// Presses Ctrl-C and returns what the program says then.
 #[cfg(unix)]
 pub fn interrupt(child: Child) -> String {
@@ -153,6 +165,9 @@ pub fn interrupt(child: Child) -> String {
     said
 }
 
+/// The wrong file whose fault is in another one, which cannot be read.
+const OF_UNREADABLE_FILE: &str = "base-missing.toml";
+
 /// Every file of a folder of wrong ones is refused with its place, in the approved words.
 pub fn refuses_all_of(folder: &str, at_least: usize, command: impl Fn(&Path, &str) -> Said) {
     let bad = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -162,7 +177,8 @@ pub fn refuses_all_of(folder: &str, at_least: usize, command: impl Fn(&Path, &st
     assert!(names.len() >= at_least, "{}", names.len());
     for name in names {
         let said = command(&bad, &name);
-        assert_eq!(said.code, 2, "{name}: {}", said.stderr);
+        let code = if name == OF_UNREADABLE_FILE { 4 } else { 2 };
+        assert_eq!(said.code, code, "{name}: {}", said.stderr);
         assert!(
             said.stderr.contains(&format!("--> {name}")),
             "{name}: {}",

@@ -10,6 +10,7 @@ use std::{
 use bytes::Bytes;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use percuss::{
+    cost,
     input_file::{self, MAX_OWN_BYTES},
     sweep::{Kernel, Sweep, SweepRow},
 };
@@ -125,7 +126,7 @@ impl SweepFolder {
             .collect()
     }
 
-    /// Computes blocks and writes a file for each, with as many threads as there are in the pool. `done` gets the
+    /// Computes blocks and writes a file for each, with as many threads as there are in the pool, or as the memory takes. `done` gets the
     /// rows of each block once they are on the disk. Returns whether all were computed: `stop` ends it early.
     ///
     /// # Errors
@@ -139,10 +140,12 @@ impl SweepFolder {
         done: &(dyn Fn(&[SweepRow]) + Sync),
     ) -> Result<bool, ReportError> {
         // One block at a time for each thread, in order, so that little is lost when the sweep is ended.
-        let result = blocks
-            .par_iter()
-            .with_max_len(1)
-            .try_for_each(|block| self.compute_block(sweep, kernel, *block, stop, done));
+        let result = cost::within_memory(sweep.memory_of_thread(), || {
+            blocks
+                .par_iter()
+                .with_max_len(1)
+                .try_for_each(|block| self.compute_block(sweep, kernel, *block, stop, done))
+        });
         match result {
             Ok(()) if !self.path.join(manifest::NAME).exists() => Err(ReportError::Write {
                 path: self.path.clone(),

@@ -2,10 +2,11 @@
 
 use std::{
     io::Write,
+    net::Shutdown,
     time::{Duration, Instant},
 };
 
-use percuss_serve::Options;
+use percuss_serve::{Options, RequestLimits};
 use serde_json::json;
 
 use crate::{
@@ -102,6 +103,53 @@ fn who_is_slow_is_not_waited_for() {
     assert!(matches!(answer.status, 0 | 408), "{answer:?}");
     assert!(start.elapsed() < Duration::from_secs(60));
     assert_eq!(served.get("/", "").status, 200);
+}
+
+/// Whoever has sent its request may close its half of the connection: it still waits, however long the run takes.
+#[test]
+fn who_closes_its_half_is_answered() {
+    let served = Served::new(Options {
+        bounds: RequestLimits {
+            elements: 20_000,
+            ..RequestLimits::default()
+        },
+        ..Options::default()
+    });
+    let host = served.address;
+    let keep = |request: &[u8]| {
+        let text = String::from_utf8(request.to_vec()).unwrap();
+        text.replace("Connection: close\r\n", "").into_bytes()
+    };
+    let post = |path: &str, body: &[u8]| post_request(host, path, body, "");
+    let fine = PAPER.replace("= 40", "= 1000").replace("= 80", "= 2000");
+    let fine = json!({ "case": fine, "model": "chain" }).to_string();
+    let page = format!("GET / HTTP/1.1\r\nHost: {host}\r\n\r\n").into_bytes();
+    let old = keep(&post("/api/answer", &body()));
+    let old = String::from_utf8(old)
+        .unwrap()
+        .replace("HTTP/1.1", "HTTP/1.0");
+    for (request, length) in [
+        (page.clone(), 1),
+        (page.repeat(3), 1),
+        (post("/api/answer", &body()), 1),
+        (keep(&post("/api/answer", &body())), 1),
+        (old.into_bytes(), 1),
+        (post("/api/study/compare", &body()), 2),
+        (post("/api/answer", fine.as_bytes()), 1),
+    ] {
+        let mut stream = served.connect();
+        stream.write_all(&request).unwrap();
+        stream.shutdown(Shutdown::Write).unwrap();
+        let start = Instant::now();
+        let answer = read(&mut stream);
+        println!("{} bytes after {:?}", answer.body.len(), start.elapsed());
+        assert_eq!(answer.status, 200, "{}", String::from_utf8_lossy(&request));
+        match length {
+            2 => assert!(answer.lines().pop().unwrap()["done"].is_object()),
+            _ => assert!(answer.body.len() > 10_000),
+        }
+        assert!(start.elapsed() < Duration::from_secs(100));
+    }
 }
 
 #[test]

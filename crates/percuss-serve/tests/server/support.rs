@@ -75,11 +75,17 @@ pub fn post_request(host: SocketAddr, path: &str, body: &[u8], headers: &str) ->
     request
 }
 
+/// Response before the response, to a client that has closed its half of the connection.
+pub const INTERIM: &[u8] = b"HTTP/1.1 100 Continue\r\n\r\n";
+
 /// Reads an answer to its end.
 pub fn read(stream: &mut TcpStream) -> CaseResponse {
     let mut bytes = Vec::new();
     // A server that refuses a body may close before it has read all of it.
     let _ = stream.read_to_end(&mut bytes);
+    while let Some(rest) = bytes.strip_prefix(INTERIM) {
+        bytes = rest.to_vec();
+    }
     let split = bytes
         .windows(4)
         .position(|four| four == b"\r\n\r\n")

@@ -152,8 +152,19 @@ impl Request {
     pub fn estimate(&self, scenario: &Scenario) -> Estimate {
         let plan = plan(scenario, self.meshes, self.budget);
         let meshes = plan.into_iter().flat_map(|plan| plan.cells);
+        let estimates = meshes.map(|cells| Axi.estimate(&on_cells(scenario, cells)));
+        Estimate {
+            memory: self.memory(scenario),
+            ..estimates.sum()
+        }
+    }
+
+    /// Memory of the answer of a case, whose meshes run side by side [bytes].
+    pub(crate) fn memory(&self, scenario: &Scenario) -> f64 {
+        let plan = plan(scenario, self.meshes, self.budget);
+        let meshes = plan.into_iter().flat_map(|plan| plan.cells);
         meshes
-            .map(|cells| Axi.estimate(&on_cells(scenario, cells)))
+            .map(|cells| Axi.estimate(&on_cells(scenario, cells)).memory)
             .sum()
     }
 

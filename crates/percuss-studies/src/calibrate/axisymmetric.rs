@@ -28,7 +28,7 @@ use super::{
 use crate::{
     Error,
     axisymmetric::{MODEL, ReferenceMeshes, Request},
-    model,
+    cost, model,
     statistics::mean,
 };
 
@@ -102,7 +102,9 @@ impl Problem {
                     observer(Stage::Correcting, before + share * part, runs),
                 )
             };
-            let found = self.answers(&values, request, &answers, &report);
+            let found = cost::within_memory(self.memory(Some(request)), || {
+                self.answers(&values, request, &answers, &report)
+            });
             record.rounds += 1;
             (record.difference, record.converged) = self.correct(found)?;
         }

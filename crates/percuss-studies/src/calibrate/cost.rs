@@ -23,4 +23,17 @@ impl Problem {
         let parts = [Some(fit), Some(once.times(sampled as f64)), corrected];
         parts.into_iter().flatten().sum()
     }
+
+    /// Memory of its largest run, at the middle of the ranges, or of its largest axisymmetric answer [bytes].
+    pub(super) fn memory(&self, correction: Option<Request>) -> f64 {
+        let middle = self.middle();
+        let cases = self.observations.iter();
+        let cases = cases.filter_map(|o| o.scenario(&self.fitted, &middle).ok());
+        let of_case = |case: Scenario| {
+            let answer = correction.map(|request| request.memory(&case));
+            let run = cost::of_run(self.model, &case).memory;
+            run.max(answer.unwrap_or(0.0))
+        };
+        cases.map(of_case).fold(0.0, f64::max)
+    }
 }

@@ -162,6 +162,15 @@ pub fn run(
     settings: &Settings,
     observer: Observer<'_>,
 ) -> Result<Calibration, Error> {
+    crate::cost::within_memory(problem.memory(None), || solve(problem, settings, observer))
+}
+
+/// The same on these threads.
+fn solve(
+    problem: &Problem,
+    settings: &Settings,
+    observer: Observer<'_>,
+) -> Result<Calibration, Error> {
     let fit = fit::least_squares(problem, settings.seed, observer)?;
     let keys: Vec<&str> = problem.fitted.iter().map(Fitted::key).collect();
     let mut findings = identifiability::of_rank(&keys, &fit.slopes);

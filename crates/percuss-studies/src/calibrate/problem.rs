@@ -16,7 +16,7 @@ use super::{
     noise::{SCATTER, deviation},
 };
 use crate::{
-    Error, Scenario,
+    Error, Scenario, cost,
     model::{self, Control, Model},
     outcome::{BandQuantity, Outcome},
 };
@@ -131,11 +131,12 @@ impl Problem {
     /// Leaves out what the model does not give and what has no standard deviation.
     fn leave_out(&mut self) -> Result<(), Error> {
         let middle = self.middle();
-        let predicted: Vec<Result<f64, Silent>> = self
-            .observations
-            .par_iter()
-            .map(|observation| self.prediction(observation, &middle))
-            .collect();
+        let predicted: Vec<Result<f64, Silent>> = cost::within_memory(self.memory(None), || {
+            self.observations
+                .par_iter()
+                .map(|observation| self.prediction(observation, &middle))
+                .collect()
+        });
         let mut used = Vec::new();
         for (observation, predicted) in std::mem::take(&mut self.observations)
             .into_iter()

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use crate::{
     Error, Scenario,
     axisymmetric::{MODEL, Request},
+    cost,
     model::{self, Control, Model},
     outcome::Band,
     regime::Regime,
@@ -79,6 +80,18 @@ pub(super) fn all_of<'a>(
     }
     all.extend(models.iter().map(|model| Entry::Model(*model)));
     Ok(all)
+}
+
+/// Memory of the largest of the jobs [bytes].
+pub(super) fn memory(models: &[Entry<'_>], runs: &[(Scenario, Regime)]) -> f64 {
+    let of_one = |entry: &Entry<'_>, scenario: &Scenario| match entry {
+        Entry::Model(model) => cost::of_run(*model, scenario).memory,
+        Entry::Axisymmetric(_, request) => request.memory(scenario),
+    };
+    let pairs = runs
+        .iter()
+        .flat_map(|(scenario, _)| models.iter().map(move |entry| of_one(entry, scenario)));
+    pairs.fold(0.0, f64::max)
 }
 
 /// Runs every model at every velocity; the results of one velocity are consecutive.

@@ -23,6 +23,7 @@ use serde::Serialize;
 use crate::{
     Error, Scenario,
     axisymmetric::Request,
+    cost,
     model::{Model, recommend},
     outcome::{BandQuantity, Outcome},
     regime::Regime,
@@ -112,7 +113,8 @@ pub fn compare(
     let all = jobs::all_of(models, axisymmetric)?;
     let models: Vec<&dyn Model> = all.iter().map(|job| job.model()).collect();
     let runs: Vec<(Scenario, Regime)> = jobs::scenarios(scenario, velocities);
-    let results = jobs::run(&all, &runs, observer)?;
+    let memory = jobs::memory(&all, &runs);
+    let results = cost::within_memory(memory, || jobs::run(&all, &runs, observer))?;
     let recommended = runs
         .iter()
         .zip(results.chunks(models.len().max(1)))

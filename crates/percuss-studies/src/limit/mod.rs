@@ -35,7 +35,8 @@ use crate::{
     analytic::InputLimit,
     axisymmetric::Request,
     compare::{Choice, ExperimentRecord},
-    model::Model,
+    cost,
+    model::{Estimate, Model},
     outcome::BandQuantity,
 };
 
@@ -245,6 +246,22 @@ pub fn limits(
 ) -> Result<Limits, Error> {
     let free = with_free_rear_face(scenario);
     let scenario = free.as_ref().unwrap_or(scenario);
+    let of_models = models.iter().map(|model| cost::of_run(*model, scenario));
+    let of_meshes = search.axisymmetric.map(|request| request.memory(scenario));
+    let memory = of_models
+        .sum::<Estimate>()
+        .memory
+        .max(of_meshes.unwrap_or(0.0));
+    cost::within_memory(memory, || searched(models, scenario, search, observer))
+}
+
+/// The same on these threads, for a plate whose rear face is as it has to be.
+fn searched(
+    models: &[&dyn Model],
+    scenario: &Scenario,
+    search: &Search,
+    observer: &mut Observer<'_>,
+) -> Result<Limits, Error> {
     // Runs of one-dimensional models and formulae take no time beside those of the axisymmetric model.
     let share = match search.axisymmetric {
         Some(_) => ONE_DIMENSIONAL,

@@ -49,6 +49,12 @@ impl Sweep {
         }
     }
 
+    /// Memory of the axisymmetric answer of a run [bytes]; 0 where there is none.
+    pub fn axisymmetric_memory(&self, index: u64) -> f64 {
+        let scenario = self.run(index).scenario;
+        scenario.map_or(0.0, |scenario| Request::default().memory(&scenario))
+    }
+
     /// The axisymmetric answer of a run, on the standard meshes, beside the number of the sweep's model.
     ///
     /// # Errors

@@ -7,7 +7,8 @@ use super::{
     panic_guard::catch_panic,
 };
 use crate::{
-    Scenario, chain,
+    Scenario, chain, cost,
+    lanes::LANES,
     model::{self, Model},
     regime::Regime,
     summary::ResultRecord,
@@ -27,6 +28,15 @@ impl BatchKernel {
         Self {
             model,
             scalar: ScalarKernel::new(model),
+        }
+    }
+
+    /// Memory of a thread that computes runs like this one [bytes].
+    pub(crate) fn memory_of_thread(model: &dyn Model, scenario: &Scenario) -> f64 {
+        let memory = cost::of_run(model, scenario).memory;
+        match Self::takes(model, scenario) {
+            true => LANES as f64 * memory,
+            false => memory,
         }
     }
 

@@ -8,6 +8,7 @@ use std::{
 use rayon::prelude::*;
 
 use super::{Kernel, Stopped, Sweep, SweepRow};
+use crate::cost;
 
 /// What a caller wants of many runs: progress and a way to stop them.
 pub struct Observer<'a> {
@@ -41,13 +42,16 @@ impl Sweep {
         observer: &Observer<'_>,
     ) -> Result<Vec<SweepRow>, Stopped> {
         let (done, total) = (AtomicU64::new(0), self.runs());
-        in_blocks(total, self.block_size, |block| {
+        let of_block = |block: Range<u64>| {
             let runs = block.map(|run| self.run(run)).collect();
             let rows = kernel.rows(runs, observer.stop)?;
             let of_block = rows.len() as u64;
             let done = done.fetch_add(of_block, Ordering::Relaxed) + of_block;
             (observer.progress)(done, total);
             Ok(rows)
+        };
+        cost::within_memory(self.memory_of_thread(), || {
+            in_blocks(total, self.block_size, of_block)
         })
     }
 }

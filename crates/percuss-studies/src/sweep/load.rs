@@ -62,7 +62,8 @@ pub(super) fn read(
                 "" => help.to_owned(),
                 remedy => format!("{remedy}; {help}"),
             };
-            document.place(Diagnostic::at("base", message, help)).into()
+            let diagnostic = Diagnostic::at("base", message, help).of_case_file();
+            document.place(diagnostic).into()
         }
         other => other,
     })?;

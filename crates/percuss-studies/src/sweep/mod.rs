@@ -138,6 +138,15 @@ impl Sweep {
         estimates.sum::<Estimate>().times(part)
     }
 
+    /// Memory of a thread that computes it [bytes], from a few runs that are spread over all.
+    pub fn memory_of_thread(&self) -> f64 {
+        let few = self.spread(self.runs().min(ESTIMATED_RUNS));
+        let scenarios = few.iter().filter_map(|i| self.run(*i).scenario.ok());
+        scenarios
+            .map(|scenario| BatchKernel::memory_of_thread(self.model, &scenario))
+            .fold(0.0, f64::max)
+    }
+
     /// A run, counted from 0.
     pub fn run(&self, index: u64) -> SweepRun {
         let inputs = self.points.values(&self.axes, self.copula.as_ref(), index);

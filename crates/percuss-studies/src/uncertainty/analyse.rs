@@ -15,11 +15,11 @@ use super::{
     tornado::{self, ENDS},
 };
 use crate::{
-    Error,
+    Error, cost,
     model::Model,
     outcome::Outcome,
     summary::{InStatistics, ResultNumber, Role},
-    sweep::{Axis, Kernel, Observer, Stopped, SweepRun, values},
+    sweep::{Axis, BatchKernel, Kernel, Observer, Stopped, SweepRun, values},
 };
 
 /// Longest key that is not shortened.
@@ -33,6 +33,20 @@ const REASONS: usize = 3;
 /// [`Error::NotApplicable`] when the model does not apply to the case with its uncertain numbers at their medians;
 /// [`Error::Cancelled`].
 pub fn analyse(
+    study: &Study,
+    model: &dyn Model,
+    kernel: &dyn Kernel,
+    settings: &Settings,
+    observer: &Observer<'_>,
+) -> Result<Uncertainty, Error> {
+    let memory = BatchKernel::memory_of_thread(model, &study.scenario);
+    cost::within_memory(memory, || {
+        analysed(study, model, kernel, settings, observer)
+    })
+}
+
+/// The same on these threads.
+fn analysed(
     study: &Study,
     model: &dyn Model,
     kernel: &dyn Kernel,

@@ -22,6 +22,7 @@ use super::{
 use crate::{
     Error,
     axisymmetric::{AxisymmetricAnswer, ReferenceMeshes, Request, main_number},
+    cost,
     statistics::{mean, quantile, sorted, variance},
     summary::ResultNumber,
     sweep::SweepRun,
@@ -107,16 +108,19 @@ pub fn correct(
         fractions[place] = fraction.clamp(0.0, 1.0);
         progress(mean(fractions))
     };
-    let answers: Vec<Result<AxisymmetricAnswer, Error>> = draws
-        .par_iter()
-        .with_max_len(1)
-        .enumerate()
-        .map(|(place, (_, draw))| {
-            let answer = answer_of(study, draw, &mut |fraction| report(place, fraction))?;
-            let _ = report(place, 1.0);
-            Ok(answer)
-        })
-        .collect();
+    let memory = Request::default().memory(&study.scenario);
+    let answers: Vec<Result<AxisymmetricAnswer, Error>> = cost::within_memory(memory, || {
+        draws
+            .par_iter()
+            .with_max_len(1)
+            .enumerate()
+            .map(|(place, (_, draw))| {
+                let answer = answer_of(study, draw, &mut |fraction| report(place, fraction))?;
+                let _ = report(place, 1.0);
+                Ok(answer)
+            })
+            .collect()
+    });
     let mut both = Vec::new();
     let mut reason = String::new();
     for ((value, _), answer) in draws.iter().zip(answers) {

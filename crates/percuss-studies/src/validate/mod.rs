@@ -134,7 +134,10 @@ pub fn run(
             .collect()
     };
     // Tests differ in cost by orders of magnitude: one at a time, so that no core is left with a block of slow ones.
-    let predictions: Vec<Vec<Prediction>> = jobs.par_iter().with_max_len(1).map(compute).collect();
+    let memory = estimate(models, tests, library).memory;
+    let predictions: Vec<Vec<Prediction>> = cost::within_memory(memory, || {
+        jobs.par_iter().with_max_len(1).map(compute).collect()
+    });
     if stop.load(Ordering::Relaxed) {
         return Err(Error::Cancelled {
             step: done.load(Ordering::Relaxed) as u64,

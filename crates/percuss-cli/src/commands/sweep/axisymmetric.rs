@@ -7,7 +7,7 @@ use std::{
 };
 
 use percuss::{
-    Error,
+    Error, cost,
     statistics::{quantile, sorted},
     sweep::Sweep,
     units::significant,
@@ -53,34 +53,38 @@ pub(super) fn compute(
         done: 0,
     });
     let lock = || state.lock().unwrap_or_else(PoisonError::into_inner);
-    let done: Result<(), Failure> = (0..due.len())
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|place| {
-            let mut report = |fraction: f64| {
-                let mut state = lock();
-                state.fractions[place] = fraction;
-                let work = state.fractions.iter().zip(&costs).map(|(f, cost)| f * cost);
-                let part = work.sum::<f64>() / whole.max(f64::MIN_POSITIVE);
-                let words = format!("{} of {} axisymmetric answers", state.done, due.len());
-                state.progress.update(part, &words);
-                unless_stopped(stop, ControlFlow::Continue(()))
-            };
-            if report(0.0).is_break() {
+    let one = |place: usize| -> Result<(), Failure> {
+        let mut report = |fraction: f64| {
+            let mut state = lock();
+            state.fractions[place] = fraction;
+            let work = state.fractions.iter().zip(&costs).map(|(f, cost)| f * cost);
+            let part = work.sum::<f64>() / whole.max(f64::MIN_POSITIVE);
+            let words = format!("{} of {} axisymmetric answers", state.done, due.len());
+            state.progress.update(part, &words);
+            unless_stopped(stop, ControlFlow::Continue(()))
+        };
+        if report(0.0).is_break() {
+            return Err(Failure::Interrupted("the axisymmetric answers"));
+        }
+        let row = match sweep.axisymmetric(due[place], &mut report) {
+            Err(Error::Cancelled { .. }) => {
                 return Err(Failure::Interrupted("the axisymmetric answers"));
             }
-            let row = match sweep.axisymmetric(due[place], &mut report) {
-                Err(Error::Cancelled { .. }) => {
-                    return Err(Failure::Interrupted("the axisymmetric answers"));
-                }
-                row => row?,
-            };
-            let mut state = lock();
-            state.file.add(&row)?;
-            state.done += 1;
-            Ok(())
-        })
-        .collect();
+            row => row?,
+        };
+        let mut state = lock();
+        state.file.add(&row)?;
+        state.done += 1;
+        Ok(())
+    };
+    let memory = due.iter().map(|i| sweep.axisymmetric_memory(*i));
+    let done: Result<(), Failure> = cost::within_memory(memory.fold(0.0, f64::max), || {
+        (0..due.len())
+            .into_par_iter()
+            .with_max_len(1)
+            .map(one)
+            .collect()
+    });
     let state = state.into_inner().unwrap_or_else(PoisonError::into_inner);
     state.progress.finish();
     done?;

@@ -1,0 +1,69 @@
+//! Runs side by side stay within the limit of memory together.
+
+#![cfg(target_os = "linux")]
+
+use std::{
+    process::{Command, Stdio},
+    thread,
+    time::{Duration, Instant},
+};
+
+use crate::support::{folder_with, memory_of};
+
+/// Cases whose runs take 57 MiB and minutes each.
+const CASE: &str = "
+projectile = { material = 'copper', length = '1 m', diameter = '1 m', impact_velocity = '300 m/s' }
+target = { material = 'aluminium-2024-t351', thickness = '1 m' }
+axi = { cells_per_radius = 40 }
+";
+const SWEEP: &str = "
+base = 'scenario.toml'
+model = 'axi'
+design = 'grid'
+block_size = 1
+[[parameter]]
+key = 'projectile.impact_velocity'
+linear = { from = '150 m/s', to = '400 m/s', count = 16 }
+";
+
+#[test]
+fn runs_side_by_side_stay_within_the_limit_together() {
+    let folder = folder_with(&[("scenario.toml", CASE), ("sweep.toml", SWEEP)]);
+    for arguments in [
+        &["sweep", "sweep.toml", "--out", "rows", "--threads", "8"][..],
+        &["limit", "scenario.toml", "--model", "axi"],
+        &[
+            "compare",
+            "scenario.toml",
+            "--model",
+            "axi",
+            "--velocity",
+            "200..400:16",
+        ],
+    ] {
+        let mut child = Command::new(assert_cmd::cargo::cargo_bin!("percuss"))
+            .args(arguments)
+            .current_dir(folder.path())
+            .envs([
+                ("PERCUSS_MEMORY_LIMIT", "150 MiB"),
+                ("RAYON_NUM_THREADS", "8"),
+            ])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let (start, mut most) = (Instant::now(), 0);
+        // Eight runs at once take 400 MiB after a second.
+        while start.elapsed() < Duration::from_secs(4) && child.try_wait().unwrap().is_none() {
+            most = memory_of(child.id())[1].max(most);
+            thread::sleep(Duration::from_millis(20));
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        println!("{arguments:?}: {} MiB", most >> 20);
+        assert!(
+            (20..200).contains(&(most >> 20)),
+            "{arguments:?}: {most} bytes"
+        );
+    }
+}
