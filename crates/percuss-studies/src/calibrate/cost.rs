@@ -7,9 +7,11 @@ impl Problem {
     /// Estimated cost of its solution, after the correction to axisymmetric answers where one is asked for.
     pub fn estimate(&self, settings: &Settings, correction: Option<Request>) -> Estimate {
         let middle = self.middle();
-        let cases = self.observations.iter();
-        let cases = cases.filter_map(|o| o.scenario(&self.fitted, &middle).ok());
-        let cases: Vec<Scenario> = cases.collect();
+        let values = self.observations.iter();
+        let values = values.map(|o| o.scenario(&self.fitted, &middle));
+        let curves = self.curve_sets.iter();
+        let curves = curves.map(|set| set.scenario(&self.fitted, &middle));
+        let cases: Vec<Scenario> = values.chain(curves).filter_map(Result::ok).collect();
         let runs = cases.iter().map(|c| cost::of_run(self.model, c));
         let once: Estimate = runs.map(|run| cost::of_runs(run, 1.0)).sum();
         let fit = once.times(fit::evaluations(self.fitted.len()) as f64);
