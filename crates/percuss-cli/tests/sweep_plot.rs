@@ -140,6 +140,10 @@ fn a_request_that_does_not_fit_is_refused_with_what_does() {
         ],
     );
     refused(
+        &["--quantity", "peak_force"],
+        ["no result `peak_force`", "did you mean `peak_force_kn`?"],
+    );
+    refused(
         &["--x", "target.thickness"],
         [
             "does not vary `target.thickness`",

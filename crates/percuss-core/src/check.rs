@@ -77,6 +77,14 @@ impl Diagnostic {
             ..self
         }
     }
+
+    /// The same at a key within a table.
+    pub fn within(self, table: &str) -> Self {
+        Self {
+            key: format!("{table}.{}", self.key),
+            ..self
+        }
+    }
 }
 
 /// Collects diagnostics; keys are relative to the table it stands in.

@@ -89,6 +89,14 @@ pub struct MeasuredCurve {
     pub points: Vec<(f64, f64)>,
     /// Columns of its table that nothing reads.
     pub unread_columns: Vec<String>,
+    /// Standard uncertainty of the values, in their SI unit.
+    pub uncertainty: Option<f64>,
+    /// Correlation time of differences from a model [s].
+    pub correlation_time: Option<f64>,
+    /// Bibliography keys; its name where the case gives none.
+    pub sources: Vec<String>,
+    /// Index of its table in the case.
+    pub table: usize,
 }
 
 /// A projectile.

@@ -55,9 +55,9 @@ pub fn compare_curves(scenario: &Scenario, result: &RunResult) -> Vec<CurveCompa
     curves.map(|curve| compare_curve(curve, result)).collect()
 }
 
-fn compare_curve(curve: &MeasuredCurve, result: &RunResult) -> CurveComparison {
+pub(crate) fn compare_curve(curve: &MeasuredCurve, result: &RunResult) -> CurveComparison {
     let (points, mut reason) = match computed(curve, result.history.as_ref()) {
-        Ok(points) => (points, None),
+        Ok(found) => (found.points, None),
         Err(reason) => (Points::new(), Some(reason)),
     };
     let mut difference = None;
@@ -88,10 +88,22 @@ fn compare_curve(curve: &MeasuredCurve, result: &RunResult) -> CurveComparison {
 }
 
 /// The curve of a run that a measured one is compared with.
+#[derive(Debug)]
+pub(crate) struct Computed {
+    /// Its points: at least one.
+    pub(crate) points: Points,
+    /// Whether it ends before the run does: the material of its gauge erodes.
+    pub(crate) erodes: bool,
+}
+
+/// The curve of a run that a measured one is compared with.
 ///
 /// # Errors
 /// The reason, where the run has none.
-fn computed(curve: &MeasuredCurve, history: Option<&History>) -> Result<Points, String> {
+pub(crate) fn computed(
+    curve: &MeasuredCurve,
+    history: Option<&History>,
+) -> Result<Computed, String> {
     let history = history.filter(|history| !history.samples.is_empty());
     let Some(history) = history else {
         return Err("the model keeps no history".to_owned());
@@ -113,11 +125,15 @@ fn computed(curve: &MeasuredCurve, history: Option<&History>) -> Result<Points, 
         }
     };
     // A gauge has numbers until its material erodes.
+    let end = all.last().map(|point| point.0);
     let there = all.into_iter().skip_while(|(_, value)| !value.is_finite());
     let points: Points = there.take_while(|(_, value)| value.is_finite()).collect();
-    match points.is_empty() {
-        true => Err(format!("the model gives no `{}`", curve.quantity)),
-        false => Ok(points),
+    match points.last() {
+        None => Err(format!("the model gives no `{}`", curve.quantity)),
+        Some(last) => Ok(Computed {
+            erodes: Some(last.0) != end,
+            points,
+        }),
     }
 }
 
@@ -197,8 +213,8 @@ impl Difference {
     }
 }
 
-/// Value of a curve at a time that it covers.
-fn at(points: &[(f64, f64)], time: f64) -> f64 {
+/// Value of a curve at a time: that of its end before and after it.
+pub(crate) fn at(points: &[(f64, f64)], time: f64) -> f64 {
     let after = points.partition_point(|point| point.0 < time);
     let (Some(next), before) = (points.get(after), after.checked_sub(1)) else {
         return points.last().map_or(f64::NAN, |point| point.1);

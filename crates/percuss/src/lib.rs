@@ -23,9 +23,9 @@
 
 #[doc(inline)]
 pub use percuss_core::{
-    Error, InputError, NumericalError, Refusal, Scenario, Subject, check, document, fragments,
-    history, input_file, ledger, material, options, outcome, power, problem, quote, regime,
-    resistance, richardson, scenario, shapes, solver,
+    Error, InputError, NumericalError, Refusal, Scenario, Subject, check, document, error,
+    fragments, history, input_file, ledger, material, options, outcome, power, problem, quote,
+    regime, resistance, richardson, scenario, shapes, solver,
     solver::{checkpoint, frames},
     statistics, units, validity,
 };

@@ -1,15 +1,24 @@
 //! Tables of curves that were measured against time in the test of a case.
 
-use std::path::PathBuf;
+use std::{collections::BTreeMap, path::PathBuf};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Gauge;
-use crate::check::Check;
+use super::{Gauge, SourceKeys};
+use crate::{
+    check::{Check, Limits, limits},
+    units::Time,
+};
+
+/// Correlation time of errors [s]: those of 0 are independent.
+const CORRELATION_TIME: Limits = Limits {
+    min: 0.0,
+    max: limits::TIME.max,
+};
 
 /// A table of curves measured against time; no model sees it.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeasuredTable {
     /// File of comma-separated values, relative to the case file: `time` and quantities of `history.csv` or of a gauge, with their units.
@@ -24,6 +33,28 @@ pub struct MeasuredTable {
     /// Name in tables and figures; that of the file when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
+    /// Standard uncertainty of the values with its unit, for `percuss calibrate`; a table of them by quantity where there are several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<CurveUncertainty>,
+    /// Correlation time of the differences from a model [s], for `percuss calibrate`, which otherwise estimates it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub correlation_time: Option<Time>,
+    /// Bibliography key, or a list of keys, of where the curves were read; the name when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<SourceKeys>,
+}
+
+/// Standard uncertainty of the values of a table, with units.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(
+    untagged,
+    expecting = "a number with its unit in quotes, such as \"5 MPa\", or a table of them by quantity"
+)]
+pub enum CurveUncertainty {
+    /// Of the only quantity.
+    Of(String),
+    /// Of each quantity.
+    Each(BTreeMap<String, String>),
 }
 
 impl MeasuredTable {
@@ -65,6 +96,18 @@ impl MeasuredTable {
                 "name",
                 "the name is empty",
                 "give it letters, or remove the key",
+            );
+        }
+        if let Some(time) = self.correlation_time {
+            check.quantity("correlation_time", time, CORRELATION_TIME);
+        }
+        if let Some(SourceKeys(keys)) = &self.source
+            && keys.iter().all(|key| key.trim().is_empty())
+        {
+            check.fail(
+                "source",
+                "the source is empty",
+                "name where the curves were read, or remove the key",
             );
         }
         let Some(gauge) = self.gauge.as_ref().filter(|gauge| !gauges.contains(gauge)) else {

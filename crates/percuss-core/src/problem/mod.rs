@@ -10,6 +10,6 @@ mod target;
 pub use experiment::{Experiment, SourceKeys, Uncertainty};
 pub use extensions::Extensions;
 pub use gauge::Gauge;
-pub use measured_table::MeasuredTable;
+pub use measured_table::{CurveUncertainty, MeasuredTable};
 pub use projectile::{Nose, Projectile};
 pub use target::{EdgeSupport, Layer, LayerInterface, RearFaceCondition, Target, Thickness};

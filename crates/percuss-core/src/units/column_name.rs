@@ -29,6 +29,18 @@ impl ColumnUnit {
     pub fn to_si(self, value: f64) -> f64 {
         value * self.factor + self.offset
     }
+
+    /// A difference of two numbers of the column in SI units.
+    pub fn difference_to_si(self, value: f64) -> f64 {
+        value * self.factor
+    }
+
+    /// The unit with this symbol of the kind of another.
+    pub fn named(symbol: &str, of: ResultUnit) -> Option<Self> {
+        let symbol = normalise(symbol);
+        let mut known = candidates(of);
+        known.find_map(|(name, unit)| (normalise(name) == symbol).then_some(unit))
+    }
 }
 
 impl ColumnName {

@@ -9,9 +9,9 @@ use crate::{
     document::read_text,
     error::{Error, InputError},
     history::{ELEMENT_COLUMNS, Read, SAMPLE_COLUMNS},
-    problem::MeasuredTable,
+    problem::{CurveUncertainty, MeasuredTable, SourceKeys},
     scenario::MeasuredCurve,
-    units::{ColumnName, ColumnUnit, ResultUnit, column_symbols, shorten},
+    units::{ColumnName, ColumnUnit, ResultUnit, Time, column_symbols, shorten, split_number},
 };
 
 /// Name of the column of times.
@@ -38,9 +38,79 @@ pub(super) fn measured_curves(
             let help = "keep fewer rows: a few hundred show a curve";
             return Err(document.place(Diagnostic::at(&key, message, help)).into());
         }
-        curves.extend(read(&file, &text, table, i)?);
+        let mut found = read(&file, &text, table, i)?;
+        if let Some(uncertainty) = &table.uncertainty {
+            set_uncertainties(&mut found, uncertainty)
+                .map_err(|diagnostic| document.place(diagnostic.within(&key)))?;
+        }
+        curves.extend(found);
     }
     Ok(curves)
+}
+
+/// Gives the curves of a table their uncertainties.
+fn set_uncertainties(
+    curves: &mut [MeasuredCurve],
+    uncertainty: &CurveUncertainty,
+) -> Result<(), Diagnostic> {
+    let key = "uncertainty";
+    let quantities: Vec<&str> = curves.iter().map(|curve| curve.quantity).collect();
+    match uncertainty {
+        CurveUncertainty::Of(text) => {
+            let [curve] = curves else {
+                let message = format!("the table has {} quantities", quantities.len());
+                let help = format!(
+                    "give a table: uncertainty = {{ {} = \"...\" }}; quantities: {}",
+                    quantities.first().unwrap_or(&""),
+                    quantities.join(", ")
+                );
+                return Err(Diagnostic::at(key, message, help));
+            };
+            curve.uncertainty = Some(uncertainty_of(curve, text, key)?);
+        }
+        CurveUncertainty::Each(texts) => {
+            for (quantity, text) in texts {
+                let key = format!("{key}.{quantity}");
+                let curve = curves.iter_mut().find(|curve| curve.quantity == quantity);
+                let Some(curve) = curve else {
+                    let message = format!("the table has no quantity `{}`", shorten(quantity));
+                    let help = format!("quantities: {}", quantities.join(", "));
+                    return Err(Diagnostic::at(&key, message, help));
+                };
+                curve.uncertainty = Some(uncertainty_of(curve, text, &key)?);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Standard uncertainty of a curve in SI units.
+fn uncertainty_of(curve: &MeasuredCurve, text: &str, key: &str) -> Result<f64, Diagnostic> {
+    let example = format!("\"1 {}\"", curve.unit.symbol);
+    let refuse = |message: String, help: String| Err(Diagnostic::at(key, message, help));
+    let Some((value, unit)) = split_number(text.trim()) else {
+        return refuse(
+            format!("`{}` is no number with a unit", shorten(text)),
+            format!("write it as in {}", example.trim()),
+        );
+    };
+    let Some(unit) = ColumnUnit::named(unit, curve.unit) else {
+        return refuse(
+            match unit {
+                "" => format!("the unit of `{}` is missing", shorten(text)),
+                _ => format!("`{}` is no unit of `{}`", shorten(unit), curve.quantity),
+            },
+            format!("units: {}", column_symbols(curve.unit)),
+        );
+    };
+    let si = unit.difference_to_si(value);
+    if !(si.is_finite() && si > 0.0) {
+        return refuse(
+            format!("the uncertainty `{}` is not positive", shorten(text)),
+            "give the standard uncertainty of the values, or remove the key".to_owned(),
+        );
+    }
+    Ok(si)
 }
 
 /// Text of the table, with the name that stands for its file in messages.
@@ -124,6 +194,13 @@ fn read(
             unit: column.kind.1,
             points,
             unread_columns: unread_columns.clone(),
+            uncertainty: None,
+            correlation_time: of.correlation_time.map(Time::si),
+            sources: match &of.source {
+                Some(SourceKeys(keys)) => keys.clone(),
+                None => vec![of.name(index)],
+            },
+            table: index,
         })
     };
     columns.iter().map(curve).collect()

@@ -32,7 +32,8 @@ pub use crate::{
         SmallStrainStiffness, TargetResistanceModel,
     },
     problem::{
-        EdgeSupport, Experiment, Extensions, Gauge, Layer, LayerInterface, MeasuredTable, Nose,
-        Projectile, RearFaceCondition, SourceKeys, Target, Thickness, Uncertainty,
+        CurveUncertainty, EdgeSupport, Experiment, Extensions, Gauge, Layer, LayerInterface,
+        MeasuredTable, Nose, Projectile, RearFaceCondition, SourceKeys, Target, Thickness,
+        Uncertainty,
     },
 };

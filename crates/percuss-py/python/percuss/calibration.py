@@ -48,12 +48,16 @@ class Calibration(Result):
     findings : list of Record
         Parameters that the data do not identify, in ``words``.
     training, hold_out : Record or None
-        Errors on the fitted and the held-out values: ``count``, ``rms_before``, ``rms``, ``bias``
+        Errors on the fitted and the held-out values, None without any: ``count``, ``rms_before``, ``rms``, ``bias``
         (relative errors) and the number ``inside`` their 95 % intervals.
     predictions : list of Record
         Measured and predicted values, in ``unit``; ``axisymmetric`` is the answer of a correction with its uncertainty.
+    curves : list of Record
+        Measured curves: number of ``values``, ``effective_values`` and ``correlation_time_us``; ``before`` and ``best`` with
+        ``rms_difference``, ``relative_rms_difference`` and ``largest_difference``; the fraction ``inside`` the 95 % intervals; ``points`` with lists
+        ``time_us``, ``measured``, ``before``, ``best`` and the ends of ``model_band`` and ``predictive_band``, in ``unit``.
     left_out : list of Record
-        Values that were not used, with the reason.
+        Values and curves that were not used, with the reason.
     materials : Record
         Calibrated materials by id, in the form of ``materials`` of a case.
     warnings : list of str
@@ -69,11 +73,12 @@ class Calibration(Result):
     scatter: Record
     correlations: list[list[float]]
     findings: list[Record]
-    training: Record
+    training: Record | None
     hold_out: Record | None
     sampling: Record | None
     warnings: list[str]
     predictions: list[Record]
+    curves: list[Record]
     left_out: list[Record]
     materials: Record
 
@@ -119,6 +124,10 @@ class Calibration(Result):
         """Draws the relative error of every measured value before and after calibration, with 95 % predictive intervals [%]."""
         return study_plots.predictions(self, ax)
 
+    def plot_curve(self, curve: int = 0, ax: Axes | None = None) -> Axes:
+        """Draws a measured curve, by its place in ``curves``, with the model before and after calibration and its 95 % predictive interval."""
+        return study_plots.calibrated_curve(self, curve, ax)
+
     def plot_posterior(self, parameter: str | None = None, ax: Axes | None = None) -> Axes:
         """Draws the posterior and the prior of a parameter; of the first when not named."""
         return study_plots.posterior(self, parameter, ax)
@@ -129,14 +138,22 @@ class Calibration(Result):
 
     def _headline(self) -> list[str]:
         fitted = [f"{p.key} = {shown(p.best)} {p.unit}".strip() for p in self.parameters]
-        return [*fitted, f"model {self.model}, RMS error {100 * self.training.rms:.2g} % of {self.training.count} values"]
+        return [*fitted, f"model {self.model}, {self._quality()}"]
+
+    def _quality(self) -> str:
+        parts = []
+        if self.training is not None:
+            parts.append(f"RMS error {100 * self.training.rms:.2g} % of {self.training.count} values")
+        for curve in self.curves:
+            if curve.best is not None and curve.best.relative_rms_difference is not None:
+                parts.append(f"relative RMS difference {100 * curve.best.relative_rms_difference:.2g} % of curve {curve.name}")
+        return ", ".join(parts)
 
     def _details_html(self) -> str:
         rows = [[shown(value) for value in row.values()] for row in self._rows()]
         notes = [finding.words for finding in self.findings] + self.warnings
         rows += [["note", note] for note in notes]
-        quality = f"RMS error {100 * self.training.rms:.2g} % of {self.training.count} values"
-        return table_html(list(self._rows()[0]), rows, f"calibration, model {self.model}, {quality}")
+        return table_html(list(self._rows()[0]), rows, f"calibration, model {self.model}, {self._quality()}")
 
 
 def _ends(name: str, quantiles: list[float] | None) -> dict[str, float | None]:
@@ -171,7 +188,7 @@ def calibrate(
     Parameters
     ----------
     cases : Case, path or sequence of them, optional
-        Cases with ``experiments``; optional when ``data`` is given.
+        Cases with ``experiments`` or ``measured_curves``; optional when ``data`` is given.
     fit : mapping, str, path or sequence of them
         Parameters to fit. A mapping from keys such as ``"chain.constraint_factor"`` to their priors: the range of a uniform prior with its
         unit such as ``"20..300 MPa"``, its ends as plain numbers, or a distribution such as

@@ -166,6 +166,24 @@ def predictions(found: Calibration, ax: Axes | None) -> Axes:
     return ax
 
 
+def calibrated_curve(found: Calibration, curve: int, ax: Axes | None) -> Axes:
+    ax = new_axes(ax)
+    of = found.curves[curve]
+    points = of.points
+    if points.before is not None:
+        ax.plot(points.time_us, points.before, color="0.55", label="before calibration")
+    if points.predictive_band is not None:
+        low, high = points.predictive_band
+        ax.fill_between(points.time_us, low, high, color="C0", alpha=0.2, linewidth=0, label="95 % predictive interval")
+    if points.best is not None:
+        ax.plot(points.time_us, points.best, color="C0", label="calibrated")
+    ax.plot(points.time_us, points.measured, "k--", label=f"measured ({of.name})")
+    words = of.quantity.replace("_", " ").capitalize()
+    ax.set(xlabel="Time (µs)", ylabel=f"{words} ({of.unit})" if of.unit else words, title=f"model {found.model}")
+    ax.legend(fontsize="small")
+    return ax
+
+
 def _axis(found: Calibration, name: str | None) -> tuple[str, str, float]:
     """Column of the sample, words for an axis, and the best value."""
     if name == "scatter":

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use percuss::calibrate::{Calibration, ParameterRecord, Prediction};
+use percuss::calibrate::{Calibration, CurvePoints, CurvePrediction, ParameterRecord, Prediction};
 
 use crate::{
     ReportError,
@@ -18,7 +18,13 @@ struct State {
     values: Vec<f64>,
 }
 
-/// Writes `parameters.csv`, `predictions.csv` and, of a sample, `sample.parquet`.
+/// A point of a curve.
+struct CurvePoint<'a> {
+    curve: &'a CurvePrediction,
+    index: usize,
+}
+
+/// Writes `parameters.csv`, `predictions.csv`, `curves.csv` where there are any and, of a sample, `sample.parquet`.
 ///
 /// # Errors
 /// [`ReportError::Write`]; [`ReportError::Table`].
@@ -36,13 +42,15 @@ pub fn write(folder: &Path, calibration: &Calibration) -> Result<Vec<PathBuf>, R
 /// # Errors
 /// [`ReportError::Table`].
 pub fn tables(calibration: &Calibration) -> Result<Vec<(&'static str, Vec<u8>)>, ReportError> {
-    let (parameters, predictions) = ("parameters.csv", "predictions.csv");
+    let (parameters, predictions, curves) = ("parameters.csv", "predictions.csv", "curves.csv");
     let of_parameters = column::csv(parameters, &parameter_columns(), &calibration.parameters)?;
     let of_predictions = column::csv(predictions, &prediction_columns(), &calibration.predictions)?;
-    Ok(vec![
-        (parameters, of_parameters),
-        (predictions, of_predictions),
-    ])
+    let mut tables = vec![(parameters, of_parameters), (predictions, of_predictions)];
+    if !calibration.curves.is_empty() {
+        let points: Vec<CurvePoint<'_>> = calibration.curves.iter().flat_map(points_of).collect();
+        tables.push((curves, column::csv(curves, &curve_columns(), &points)?));
+    }
+    Ok(tables)
 }
 
 fn parameter_columns() -> Vec<Column<ParameterRecord>> {
@@ -98,6 +106,48 @@ fn prediction_columns() -> Vec<Column<Prediction>> {
         end("predictive_2_5", |p| p.predictive_band.map(|band| band[0])),
         end("predictive_50", |p| p.predictive_median),
         end("predictive_97_5", |p| p.predictive_band.map(|band| band[1])),
+    ]
+}
+
+fn points_of(curve: &CurvePrediction) -> impl Iterator<Item = CurvePoint<'_>> {
+    (0..curve.values).map(move |index| CurvePoint { curve, index })
+}
+
+fn curve_columns<'a>() -> Vec<Column<CurvePoint<'a>>> {
+    let end = |name: &str, end: usize, of: fn(&CurvePoints) -> &Option<[Vec<f64>; 2]>| {
+        Column::optional(name, move |p: &CurvePoint<'_>| {
+            let band = of(&p.curve.points).as_ref();
+            band.map(|band| band[end][p.index])
+        })
+    };
+    vec![
+        Column::text("id", |p: &CurvePoint<'_>| p.curve.id.clone()),
+        Column::text("part", |p: &CurvePoint<'_>| {
+            if p.curve.held_out {
+                "hold-out"
+            } else {
+                "training"
+            }
+            .to_owned()
+        }),
+        Column::text("quantity", |p: &CurvePoint<'_>| p.curve.quantity.to_owned()),
+        Column::text("unit", |p: &CurvePoint<'_>| p.curve.unit.to_owned()),
+        Column::float("time_us", |p: &CurvePoint<'_>| {
+            p.curve.points.time_us[p.index]
+        }),
+        Column::float("measured", |p: &CurvePoint<'_>| {
+            p.curve.points.measured[p.index]
+        }),
+        Column::optional("before", |p: &CurvePoint<'_>| {
+            p.curve.points.before.as_ref().map(|all| all[p.index])
+        }),
+        Column::optional("best", |p: &CurvePoint<'_>| {
+            p.curve.points.best.as_ref().map(|all| all[p.index])
+        }),
+        end("model_2_5", 0, |points| &points.model_band),
+        end("model_97_5", 1, |points| &points.model_band),
+        end("predictive_2_5", 0, |points| &points.predictive_band),
+        end("predictive_97_5", 1, |points| &points.predictive_band),
     ]
 }
 

@@ -1,6 +1,7 @@
 //! Figures and files of a calibration.
 
 mod corner;
+mod curves;
 mod files;
 mod panel;
 mod predictive;
@@ -12,16 +13,20 @@ use crate::{Chart, Figure, names};
 
 pub use files::{tables, write};
 
-/// Figures of a calibration: measured values and predictions, and traces and projections of the sample.
+/// Figures of a calibration: measured values and curves with predictions, and traces and projections of the sample.
 pub fn figures(calibration: &Calibration) -> Vec<Figure> {
-    let mut figures = vec![predictive::chart(calibration).draw()];
+    let charts = charts(calibration);
+    let mut figures: Vec<Figure> = charts.iter().map(Chart::draw).collect();
     figures.extend(sample_figures(calibration));
     figures
 }
 
-/// Chart of measured values and predictions.
-pub fn chart(calibration: &Calibration) -> Chart {
-    predictive::chart(calibration).into()
+/// Charts of measured values and of each measured curve with predictions.
+pub fn charts(calibration: &Calibration) -> Vec<Chart> {
+    let values = (!calibration.predictions.is_empty()).then(|| predictive::chart(calibration));
+    let curves = calibration.curves.iter().enumerate();
+    let curves = curves.map(|(index, curve)| curves::chart(calibration, index, curve));
+    values.into_iter().chain(curves).map(Chart::from).collect()
 }
 
 /// The figures of the sample, if there is one.

@@ -71,6 +71,7 @@ fn caption(calibration: &Calibration) -> String {
             quality.count
         )
     };
+    let fitted = calibration.training.as_ref().map_or_else(String::new, of);
     let bars = match calibration.sample {
         Some(_) => "; error bars: 95 % predictive interval",
         None => "",
@@ -81,5 +82,5 @@ fn caption(calibration: &Calibration) -> String {
         .map_or_else(String::new, |quality| {
             format!("; held out: {}", of(quality))
         });
-    format!("fitted: {}{held_out}{bars}", of(&calibration.training))
+    format!("fitted: {fitted}{held_out}{bars}")
 }

@@ -71,6 +71,8 @@ pub(super) fn fitted(job: &Job<'_>) -> Result<Study, Problem> {
     observations.hold_out(hold_out)?;
     few(parameters.len(), MOST_FITTED, "fitted numbers")?;
     few(observations.used.len(), MOST_VALUES, "measured values")?;
+    let curves = observations.curves.iter().map(|set| set.curves.len());
+    few(curves.sum(), MOST_VALUES, "measured curves")?;
 
     let ended = Arc::new(AtomicBool::new(false));
     let stages = Stages {
@@ -106,10 +108,10 @@ pub(super) fn fitted(job: &Job<'_>) -> Result<Study, Problem> {
     let files: Vec<_> = csv_files(calibration::tables(&found.calibration)?)
         .chain(texts.map(|(name, text)| (name.to_owned(), text)))
         .collect();
-    let chart = calibration::chart(&found.calibration);
+    let charts = calibration::charts(&found.calibration);
     let pictures = calibration::sample_figures(&found.calibration);
     let record = json!({ "calibration": found, "material": found.toml() });
-    Ok(Study::new(record, &[chart], files).with_pictures(pictures))
+    Ok(Study::new(record, &charts, files).with_pictures(pictures))
 }
 
 fn few(count: usize, most: usize, what: &str) -> Result<(), Problem> {

@@ -68,7 +68,7 @@ function show(done: Calibrated): HTMLElement[] {
     ? [make("details", {}, make("summary", {}, "Calibrated material as table `materials` of a case"), make("pre", { tabindex: "0" }, done.material))]
     : [];
   const warnings = found.warnings.length ? [list(found.warnings)] : [];
-  return [...said, parameterTable(done), qualityTable(done), predictions(done), ...warnings, ...rest, ...material];
+  return [...said, parameterTable(done), ...tables(done), ...warnings, ...rest, ...material];
 }
 
 const marginal = (of: Marginal | null, factor = 1) =>
@@ -89,12 +89,38 @@ function parameterTable({ calibration: found }: Calibrated): HTMLElement {
   return table(head, lines);
 }
 
+// Tables of the data that there are.
+function tables(done: Calibrated): HTMLElement[] {
+  const { training, hold_out, predictions: values, curves } = done.calibration;
+  return [
+    ...(training || hold_out ? [qualityTable(done)] : []),
+    ...(curves.length ? [curveTable(done)] : []),
+    ...(values.length ? [predictions(done)] : []),
+  ];
+}
+
 function qualityTable({ calibration: found }: Calibrated): HTMLElement {
   const sampled = found.sampling !== null;
   const line = (name: string, q: Quality) =>
     [name, String(q.count), percent(q.rms_before), percent(q.rms), percent(q.bias), ...(sampled ? [String(q.inside ?? "–")] : [])];
-  const lines = [line("fitted", found.training), ...(found.hold_out ? [line("held out", found.hold_out)] : [])];
+  const lines = [...(found.training ? [line("fitted", found.training)] : []), ...(found.hold_out ? [line("held out", found.hold_out)] : [])];
   return table(["measured values", "count", "RMS before [%]", "RMS [%]", "bias [%]", ...(sampled ? ["in the 95 % interval"] : [])], lines);
+}
+
+// Differences from the measured curves.
+function curveTable({ calibration: found }: Calibrated): HTMLElement {
+  const lines = found.curves.map((c) => [
+    `${c.id}${c.held_out ? " (held out)" : ""}`,
+    String(c.values),
+    number(c.effective_values),
+    number(c.correlation_time_us, 2),
+    c.unit,
+    number(c.before?.rms_difference ?? null),
+    number(c.best?.rms_difference ?? null),
+    percent(c.best?.relative_rms_difference ?? null),
+  ]);
+  const head = ["measured curve", "values", "worth", "correlation time [µs]", "unit", "RMS difference before", "RMS difference", "relative [%]"];
+  return table(head, lines);
 }
 
 // Measured and predicted values.

@@ -207,6 +207,8 @@ export interface Marginal {
 }
 export interface Quality { count: number; rms_before: number | null; rms: number; bias: number; inside: number | null }
 
+export interface CurveError { rms_difference: number; relative_rms_difference: number | null }
+
 export interface Calibrated extends Study {
   material: string | null;
   calibration: {
@@ -223,7 +225,7 @@ export interface Calibrated extends Study {
     }[];
     scatter: { estimated: boolean; best: number; posterior: Marginal | null };
     findings: { words: string }[];
-    training: Quality;
+    training: Quality | null;
     hold_out: Quality | null;
     sampling: { ensembles: number; walkers: number; steps: number; burn_in: number } | null;
     warnings: string[];
@@ -237,6 +239,16 @@ export interface Calibrated extends Study {
       before: number | null;
       best: number | null;
       predictive_band: [number, number] | null;
+    }[];
+    curves: {
+      id: string;
+      held_out: boolean;
+      unit: string;
+      values: number;
+      effective_values: number;
+      correlation_time_us: number;
+      before: CurveError | null;
+      best: CurveError | null;
     }[];
     left_out: { id: string; reason: string }[];
   };

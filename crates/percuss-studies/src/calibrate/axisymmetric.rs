@@ -82,6 +82,16 @@ impl Problem {
         observer: Observer<'_>,
     ) -> Result<Self, Error> {
         self.check_corrected()?;
+        for curve in std::mem::take(&mut self.curve_sets)
+            .into_iter()
+            .flat_map(|set| set.curves)
+        {
+            self.left_out.push(LeftOut {
+                id: curve.id,
+                reason: "curves are not corrected to axisymmetric answers; `--model axi` is fitted to them directly".to_owned(),
+            });
+        }
+        self.check_count()?;
         let answers = AtomicUsize::new(0);
         let mut record = CorrectionRecord {
             reference: request.meshes,

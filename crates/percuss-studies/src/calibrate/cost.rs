@@ -6,10 +6,7 @@ use crate::{Scenario, axisymmetric::Request, cost, model::Estimate};
 impl Problem {
     /// Estimated cost of its solution, after the correction to axisymmetric answers where one is asked for.
     pub fn estimate(&self, settings: &Settings, correction: Option<Request>) -> Estimate {
-        let middle = self.middle();
-        let cases = self.observations.iter();
-        let cases = cases.filter_map(|o| o.scenario(&self.fitted, &middle).ok());
-        let cases: Vec<Scenario> = cases.collect();
+        let cases: Vec<Scenario> = self.cases().collect();
         let runs = cases.iter().map(|c| cost::of_run(self.model, c));
         let once: Estimate = runs.map(|run| cost::of_runs(run, 1.0)).sum();
         let fit = once.times(fit::evaluations(self.fitted.len()) as f64);
@@ -26,14 +23,22 @@ impl Problem {
 
     /// Memory of its largest run, at the middle of the ranges, or of its largest axisymmetric answer [bytes].
     pub(super) fn memory(&self, correction: Option<Request>) -> f64 {
-        let middle = self.middle();
-        let cases = self.observations.iter();
-        let cases = cases.filter_map(|o| o.scenario(&self.fitted, &middle).ok());
         let of_case = |case: Scenario| {
             let answer = correction.map(|request| request.memory(&case));
             let run = cost::of_run(self.model, &case).memory;
             run.max(answer.unwrap_or(0.0))
         };
-        cases.map(of_case).fold(0.0, f64::max)
+        self.cases().map(of_case).fold(0.0, f64::max)
+    }
+
+    /// Its cases with every parameter in the middle of its range.
+    fn cases(&self) -> impl Iterator<Item = Scenario> {
+        let middle = self.middle();
+        let values = self.observations.iter();
+        let values = values.map(|o| o.scenario(&self.fitted, &middle));
+        let curves = self.curve_sets.iter();
+        let curves = curves.map(|set| set.scenario(&self.fitted, &middle));
+        let cases: Vec<Scenario> = values.chain(curves).filter_map(Result::ok).collect();
+        cases.into_iter()
     }
 }

@@ -6,10 +6,10 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::{
-    Counter, Noise, Observation, Observer, Problem, Stage, cancelled, heard,
+    Counter, Noise, Observer, Problem, Stage, cancelled, heard,
     least_squares::{Minimum, Unable, jacobian, minimise},
-    noise::{SCATTER, scatter_of},
-    problem::refuse,
+    noise::{SCATTER, Spread, independent, scatter_of},
+    problem::{Silent, refuse},
 };
 use crate::{Error, sweep};
 
@@ -17,9 +17,9 @@ use crate::{Error, sweep};
 const TRIED: usize = 10;
 /// Starts from which the minimum is looked for.
 const STARTS: usize = 2;
-/// Rounds in which scatter and parameters are made to agree.
+/// Rounds in which scatter, correlation times and parameters are made to agree.
 const ROUNDS: usize = 8;
-/// Relative change of the scatter that ends them.
+/// Relative change of the scatter and of the correlation times that ends them.
 const SETTLED: f64 = 1e-4;
 /// Relative difference of two minima that are one.
 const SAME: f64 = 1e-3;
@@ -31,6 +31,10 @@ const START: u64 = 0x57a7;
 pub(super) struct Fit {
     pub(super) values: Vec<f64>,
     pub(super) scatter: f64,
+    /// Correlation times of all curves [s].
+    pub(super) correlation_times: Vec<f64>,
+    /// How what is fitted to is distributed about the model.
+    pub(super) spreads: Vec<Spread>,
     /// Derivatives of the measured quantities over their standard deviations by the parameters over those of their priors.
     pub(super) slopes: DMatrix<f64>,
     /// Standard deviations of the priors.
@@ -61,7 +65,14 @@ pub(super) fn least_squares(
         total: evaluations(count),
         report: &report,
     };
-    let solver = Solver { problem, counter };
+    let curves = problem.curves();
+    let correlation_times: Vec<f64> = curves.map(|c| c.first_correlation_time()).collect();
+    let mut solver = Solver {
+        problem,
+        counter,
+        spreads: problem.spreads(&correlation_times),
+        correlation_times,
+    };
     let failed = |unable: Unable| match unable {
         Unable::Stopped => cancelled(problem),
         Unable::Failed if problem.stop.load(Ordering::Relaxed) => cancelled(problem),
@@ -94,16 +105,27 @@ pub(super) fn least_squares(
         ));
     }
     let mut best = minima.into_iter().next().ok_or_else(|| failed(unable))?;
-    if problem.noise == Noise::Estimated {
+    let correlated = problem.curves().any(|c| c.curve.correlation_time.is_none());
+    if problem.noise == Noise::Estimated || correlated {
         for _ in 0..ROUNDS {
-            let found = solver.scatter(&best.values).map_err(failed)?;
-            let settled = (found / scatter - 1.0).abs() < SETTLED;
-            scatter = found;
-            if settled {
+            let mut change = solver.correlate(&best.values).map_err(failed)?;
+            if problem.noise == Noise::Estimated {
+                let found = solver.scatter(&best.values).map_err(failed)?;
+                change = change.max((found / scatter - 1.0).abs());
+                scatter = found;
+            }
+            if change < SETTLED {
                 break;
             }
             best = solver.minimum(&best.values, scatter).map_err(failed)?;
         }
+    }
+    let worth = independent(&solver.spreads);
+    if problem.noise == Noise::Estimated && worth <= count as f64 {
+        warnings.push(format!(
+            "the data are worth {worth:.1} independent values, too few for {count} parameters and their own scatter: state uncertainties, or \
+             fit fewer parameters"
+        ));
     }
     if !best.converged {
         warnings.push(
@@ -117,12 +139,14 @@ pub(super) fn least_squares(
 struct Solver<'a> {
     problem: &'a Problem,
     counter: Counter<'a>,
+    correlation_times: Vec<f64>,
+    spreads: Vec<Spread>,
 }
 
 impl Solver<'_> {
     fn residuals(&self, values: &[f64], scatter: f64) -> Result<Vec<f64>, Unable> {
         self.counter.count();
-        self.problem.residuals(values, scatter)
+        self.problem.residuals(values, &self.spreads, scatter)
     }
 
     fn minimum(&self, start: &[f64], scatter: f64) -> Result<Minimum, Unable> {
@@ -157,12 +181,36 @@ impl Solver<'_> {
     /// Scatter of the measured values about the model.
     fn scatter(&self, values: &[f64]) -> Result<f64, Unable> {
         let differences = self.problem.differences(values)?;
-        let pairs: Vec<(f64, &Observation)> = differences
-            .into_iter()
-            .zip(self.problem.training())
-            .collect();
-        let degrees = pairs.len().saturating_sub(values.len()).max(1);
-        Ok(scatter_of(&pairs, degrees as f64))
+        let degrees = independent(&self.spreads) - values.len() as f64;
+        Ok(scatter_of(&differences, &self.spreads, degrees.max(1.0)))
+    }
+
+    /// Estimates the correlation times that are not stated; gives the largest relative change.
+    fn correlate(&mut self, values: &[f64]) -> Result<f64, Unable> {
+        let mut times = Vec::new();
+        for set in &self.problem.curve_sets {
+            let predicted = self
+                .problem
+                .curves_of(set, values)
+                .map_err(|silent| match silent {
+                    Silent::Stopped => Unable::Stopped,
+                    _ => Unable::Failed,
+                })?;
+            let curves = set.curves.iter().zip(predicted);
+            times.extend(curves.map(|(curve, predicted)| {
+                let stated = curve.curve.correlation_time;
+                stated.unwrap_or_else(|| curve.correlation_time(&curve.differences(&predicted)))
+            }));
+        }
+        let change = |(new, old): (&f64, &f64)| match new == old {
+            true => 0.0,
+            false => (new - old).abs() / new.max(*old),
+        };
+        let changes = times.iter().zip(&self.correlation_times).map(change);
+        let largest = changes.fold(0.0, f64::max);
+        self.spreads = self.problem.spreads(&times);
+        self.correlation_times = times;
+        Ok(largest)
     }
 
     fn fit(&self, values: Vec<f64>, scatter: f64, warnings: Vec<String>) -> Result<Fit, Unable> {
@@ -187,6 +235,8 @@ impl Solver<'_> {
                 .collect(),
             values,
             scatter,
+            correlation_times: self.correlation_times.clone(),
+            spreads: self.spreads.clone(),
             slopes,
             units,
             warnings,

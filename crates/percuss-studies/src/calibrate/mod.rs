@@ -1,7 +1,7 @@
 //! Calibration: parameters of cases fitted to what was measured, by least squares and by sampling the posterior.
 //!
-//! Measured values come from the `[[experiments]]` of case files and from published tests; a parameter is any number of the cases by
-//! its dotted key, constants of library materials included. What is calibrated on a source is no blind test of it: the record that
+//! Measured data are the `[[experiments]]` and `[[measured_curves]]` of case files and published tests; a parameter is any number of the
+//! cases by its dotted key, constants of library materials included. What is calibrated on a source is no blind test of it: the record that
 //! comes out says so, and validation heeds it.
 //!
 //! ```
@@ -14,7 +14,7 @@
 //! let problem = Problem::new(model("wilkins_guinan")?, fitted, observations, Noise::Estimated)?;
 //! let settings = Settings { sampling: None, seed: 0 };
 //! let found = calibrate::run(&problem, &settings, &|_, _, _| ControlFlow::Continue(()))?;
-//! println!("A = {} MPa, RMS error {:.1} %", found.parameters[0].best, 100.0 * found.training.rms);
+//! println!("A = {} MPa, RMS error {:.1} %", found.parameters[0].best, 100.0 * found.training.map_or(f64::NAN, |all| all.rms));
 //! # assert!((50.0..250.0).contains(&found.parameters[0].best));
 //! # Ok::<(), percuss::Error>(())
 //! ```
@@ -23,6 +23,10 @@ mod axisymmetric;
 mod calibrated;
 mod correction;
 mod cost;
+mod curve;
+mod curve_prediction;
+#[cfg(test)]
+mod curve_tests;
 mod diagnostics;
 mod fit;
 mod identifiability;
@@ -50,6 +54,8 @@ use serde::Serialize;
 
 pub use axisymmetric::CorrectionRecord;
 pub use calibrated::Calibrated;
+pub use curve::{CurveObservation, CurveSet};
+pub use curve_prediction::{CurveError, CurvePoints, CurvePrediction};
 pub use diagnostics::{bulk_effective_size, r_hat, tail_effective_size};
 pub use identifiability::{Unidentified, Weakness};
 pub use noise::Noise;
@@ -136,8 +142,8 @@ pub struct Calibration {
     pub correlations: Vec<Vec<f64>>,
     /// Parameters that the data do not determine.
     pub findings: Vec<Unidentified>,
-    /// How the values that were fitted to are met.
-    pub training: Quality,
+    /// How the values that were fitted to are met; null where all data are curves.
+    pub training: Option<Quality>,
     /// How those that were kept out are met.
     pub hold_out: Option<Quality>,
     /// How the posterior was sampled.
@@ -146,7 +152,9 @@ pub struct Calibration {
     pub warnings: Vec<String>,
     /// What the calibrated model says of each value.
     pub predictions: Vec<Prediction>,
-    /// Values that were not used.
+    /// What it says of each curve.
+    pub curves: Vec<CurvePrediction>,
+    /// Values and curves that were not used.
     pub left_out: Vec<LeftOut>,
     /// The sample.
     #[serde(skip)]
@@ -199,21 +207,31 @@ fn solve(
             findings.push(identifiability::at_bound(parameter.key(), "upper"));
         }
     }
-    let predictions = predictive::predictions(problem, &fit.values, sample.as_ref(), &|part| {
+    let report = |part: f64| {
         let runs = problem.runs.load(Ordering::Relaxed);
-        heard(problem, observer(Stage::Predicting, part, runs))
-    });
+        heard(problem, observer(Stage::Predicting, part, runs));
+    };
+    let counter = Counter {
+        done: AtomicUsize::new(0),
+        total: problem.observations.len() + problem.curves().count(),
+        report: &report,
+    };
+    let draws = predictive::draws(sample.as_ref());
+    let predictions = predictive::predictions(problem, &fit.values, &draws, &counter);
+    let curves = curve_prediction::curve_predictions(problem, &fit, &draws, &counter);
     if problem.stop.load(Ordering::Relaxed) {
         return Err(cancelled(problem));
     }
     let quality =
         |held_out: bool| Quality::of(predictions.iter().filter(|p| p.held_out == held_out));
-    let training = quality(false).ok_or_else(|| {
-        problem::refuse(
+    let training = quality(false);
+    let is_met = |curve: &CurvePrediction| !curve.held_out && curve.best.is_some();
+    if training.is_none() && !curves.iter().any(is_met) {
+        return Err(problem::refuse(
             "the model fails on every measured value with the best parameters".to_owned(),
             "give other ranges".to_owned(),
-        )
-    })?;
+        ));
+    }
     let marginal = |i: usize| sample.as_ref().map(|sample| Marginal::of(sample, i));
     let parameters: Vec<ParameterRecord> = problem
         .fitted
@@ -241,6 +259,7 @@ fn solve(
     let mut warnings = fit.warnings.clone();
     warnings.extend(problem.correction.and_then(|record| record.warning()));
     warnings.extend(not_blind(problem));
+    warnings.extend(problem.curves().filter_map(CurveObservation::warning));
     warnings.extend(posterior::warnings(&parameters, &scatter));
     Ok(Calibration {
         percuss_version: env!("CARGO_PKG_VERSION"),
@@ -263,6 +282,7 @@ fn solve(
         }),
         warnings,
         predictions,
+        curves,
         left_out: problem.left_out.clone(),
         sample,
     })
@@ -270,9 +290,12 @@ fn solve(
 
 /// Says which sources that were kept out test the model no more than those that were fitted to.
 fn not_blind(problem: &Problem) -> Option<String> {
-    let held_out = problem.observations.iter().filter(|o| o.held_out);
-    let mut known: Vec<&str> = held_out
-        .flat_map(|observation| &observation.sources)
+    let values = problem.observations.iter().filter(|o| o.held_out);
+    let curves = problem.curves().filter(|curve| curve.held_out);
+    let mut known: Vec<&str> = values
+        .map(|value| &value.sources)
+        .chain(curves.map(|curve| &curve.curve.sources))
+        .flatten()
         .filter(|source| problem.model.validity().is_fitted_to(source))
         .map(String::as_str)
         .collect();

@@ -4,13 +4,12 @@ use std::str::FromStr;
 
 use serde::Serialize;
 
-use super::Observation;
-
-/// Scatter of measured values about the model, Gaussian and independent.
+/// Scatter of measured values about the model: Gaussian and, but for the points of a curve, independent.
 ///
 /// The variance of a value is `u² + (s c)²`: u is its stated standard deviation, 0 where there is none; s is a relative scatter that
 /// stands for test and model alike; c is the measured value, or the impact velocity for a residual velocity. Where the model is corrected
-/// to axisymmetric answers, their discretisation uncertainty counts to u.
+/// to axisymmetric answers, their discretisation uncertainty counts to u. Points of a curve are correlated in time: c is the root mean
+/// square of the curve, and a point counts as tanh(Δ/2τ) independent values for its time Δ and the correlation time τ.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Noise {
@@ -54,21 +53,47 @@ impl FromStr for Noise {
     }
 }
 
-/// Standard deviation of a measured value for a relative scatter [m or m/s].
-pub(super) fn deviation(observation: &Observation, scatter: f64) -> f64 {
-    let stated = observation.uncertainty.unwrap_or(0.0);
-    let of_meshes = observation.correction.map_or(0.0, |c| c.first.uncertainty);
-    stated.hypot(of_meshes).hypot(scatter * observation.scale())
+/// How a measured number is distributed about the model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Spread {
+    /// Its stated standard deviation; 0 without one.
+    pub(super) stated: f64,
+    /// What a relative scatter is a part of.
+    pub(super) scale: f64,
+    /// How many independent numbers it counts as: 1, and less for a point of a curve.
+    pub(super) weight: f64,
+}
+
+impl Spread {
+    /// Standard deviation for a relative scatter.
+    pub(super) fn deviation(&self, scatter: f64) -> f64 {
+        self.stated.hypot(scatter * self.scale)
+    }
+
+    /// A difference from the model over its standard deviation, such that its square counts as many numbers as it stands for.
+    pub(super) fn residual(&self, difference: f64, scatter: f64) -> f64 {
+        difference / self.deviation(scatter) * self.weight.sqrt()
+    }
+
+    /// Logarithm of the likelihood of a difference, up to a constant.
+    pub(super) fn ln_likelihood(&self, difference: f64, scatter: f64) -> f64 {
+        let deviation = self.deviation(scatter);
+        self.weight * (-0.5 * (difference / deviation).powi(2) - deviation.ln())
+    }
+}
+
+/// How many independent numbers some count as.
+pub(super) fn independent(spreads: &[Spread]) -> f64 {
+    spreads.iter().map(|spread| spread.weight).sum()
 }
 
 /// The scatter with which residuals (model less measured) have as many standard deviations, squared and summed, as there are degrees
-/// of freedom: `Σ r²/(u² + (s c)²) = degrees`. The least of [`SCATTER`] where stated deviations alone explain them.
-pub(super) fn scatter_of(residuals: &[(f64, &Observation)], degrees: f64) -> f64 {
+/// of freedom: `Σ w r²/(u² + (s c)²) = degrees`. The least of [`SCATTER`] where stated deviations alone explain them.
+pub(super) fn scatter_of(differences: &[f64], spreads: &[Spread], degrees: f64) -> f64 {
     let excess = |scatter: f64| {
-        let square = |(residual, observation): &(f64, &Observation)| {
-            (residual / deviation(observation, scatter)).powi(2)
-        };
-        residuals.iter().map(square).sum::<f64>() > degrees
+        let square =
+            |(difference, spread): (&f64, &Spread)| spread.residual(*difference, scatter).powi(2);
+        differences.iter().zip(spreads).map(square).sum::<f64>() > degrees
     };
     let (mut low, mut high) = SCATTER;
     if !excess(low) {

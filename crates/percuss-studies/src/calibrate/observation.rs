@@ -1,8 +1,8 @@
-//! Measured values: entries `[[experiments]]` of case files, and published tests.
+//! Measured data: `[[experiments]]` and `[[measured_curves]]` of case files, and published tests.
 
 use serde::Serialize;
 
-use super::{Fitted, correction::Correction, problem::refuse};
+use super::{Fitted, correction::Correction, curve::CurveSet, noise::Spread, problem::refuse};
 use crate::{
     Error, Scenario,
     case::{self, Document, Template},
@@ -47,20 +47,24 @@ pub struct LeftOut {
 pub struct Observations {
     /// The values.
     pub used: Vec<Observation>,
+    /// Measured curves, those of a case together.
+    pub curves: Vec<CurveSet>,
     /// Those that are not.
     pub left_out: Vec<LeftOut>,
 }
 
 impl Observations {
-    /// Adds what was measured on a case: its `[[experiments]]`.
+    /// Adds what was measured on a case: its `[[experiments]]` and `[[measured_curves]]`.
     ///
     /// # Errors
     /// [`Error::Input`] when the case is not valid, or nothing was measured on it.
     pub fn add_case(&mut self, document: &Document) -> Result<(), Error> {
         let template = Template::of(document)?;
         let scenario = case::scenario(document)?;
-        if scenario.experiments.is_empty() {
-            let help = "add [[experiments]] with impact_velocity, a measured quantity and source";
+        self.curves
+            .extend(CurveSet::of(document, &template, &scenario));
+        if scenario.experiments.is_empty() && scenario.measured_curves.is_empty() {
+            let help = "add [[experiments]] with impact_velocity, a measured quantity and source, or [[measured_curves]]";
             let diagnostic = Diagnostic::whole("the case has no measured value", help);
             return Err(document.place(diagnostic).into());
         }
@@ -142,9 +146,13 @@ impl Observations {
     pub fn hold_out(&mut self, sources: &[String]) -> Result<(), Error> {
         for source in sources {
             let mut found = false;
-            for observation in &mut self.used {
-                if observation.sources.contains(source) {
-                    observation.held_out = true;
+            let values = self.used.iter_mut();
+            let values = values.map(|value| (&value.sources, &mut value.held_out));
+            let curves = self.curves.iter_mut().flat_map(|set| &mut set.curves);
+            let curves = curves.map(|curve| (&curve.curve.sources, &mut curve.held_out));
+            for (sources, held_out) in values.chain(curves) {
+                if sources.contains(source) {
+                    *held_out = true;
                     found = true;
                 }
             }
@@ -153,6 +161,14 @@ impl Observations {
             }
         }
         Ok(())
+    }
+
+    /// Keeps those whose sources are wanted.
+    pub fn keep(&mut self, wanted: impl Fn(&[String]) -> bool) {
+        self.used.retain(|value| wanted(&value.sources));
+        for set in &mut self.curves {
+            set.curves.retain(|curve| wanted(&curve.curve.sources));
+        }
     }
 
     /// The error of a source that nothing comes from.
@@ -170,11 +186,9 @@ impl Observations {
     /// Sources of all values, each once.
     pub fn sources(&self) -> Vec<&str> {
         let mut sources: Vec<&str> = Vec::new();
-        for source in self
-            .used
-            .iter()
-            .flat_map(|observation| &observation.sources)
-        {
+        let values = self.used.iter().map(|value| &value.sources);
+        let curves = self.curves.iter().flat_map(|set| &set.curves);
+        for source in values.chain(curves.map(|c| &c.curve.sources)).flatten() {
             if !sources.contains(&source.as_str()) {
                 sources.push(source);
             }
@@ -186,22 +200,24 @@ impl Observations {
 impl Observation {
     /// The case with its impact velocity and with values for what is fitted; otherwise why there is none.
     pub(super) fn scenario(&self, fitted: &[Fitted], values: &[f64]) -> Result<Scenario, String> {
-        let changes: Vec<(&str, toml::Value)> = fitted
-            .iter()
-            .zip(values)
-            .map(|(parameter, value)| parameter.change(*value))
-            .collect();
-        let scenario = self.template.scenario(&changes).map_err(|diagnostics| {
-            let words = diagnostics.into_iter().map(|diagnostic| diagnostic.message);
-            words.collect::<Vec<_>>().join("; ")
-        })?;
-        Ok(scenario.at_impact_velocity(self.impact_velocity))
+        scenario(&self.template, fitted, values, self.impact_velocity)
     }
 
     /// What is predicted for it where the model gives a value [m or m/s].
     pub(super) fn predicted(&self, model: f64) -> f64 {
         self.correction
             .map_or(model, |correction| correction.of(self.quantity, model))
+    }
+
+    /// How it is distributed about the model.
+    pub(super) fn spread(&self) -> Spread {
+        let stated = self.uncertainty.unwrap_or(0.0);
+        let of_meshes = self.correction.map_or(0.0, |c| c.first.uncertainty);
+        Spread {
+            stated: stated.hypot(of_meshes),
+            scale: self.scale(),
+            weight: 1.0,
+        }
     }
 
     /// What a relative scatter is a part of: the measured value, or the impact velocity for a residual velocity, which may be 0.
@@ -211,6 +227,25 @@ impl Observation {
             _ => self.measured,
         }
     }
+}
+
+/// A case with values for what is fitted and an impact velocity; otherwise why there is none.
+pub(super) fn scenario(
+    template: &Template,
+    fitted: &[Fitted],
+    values: &[f64],
+    impact_velocity: f64,
+) -> Result<Scenario, String> {
+    let changes: Vec<(&str, toml::Value)> = fitted
+        .iter()
+        .zip(values)
+        .map(|(parameter, value)| parameter.change(*value))
+        .collect();
+    let scenario = template.scenario(&changes).map_err(|diagnostics| {
+        let words = diagnostics.into_iter().map(|diagnostic| diagnostic.message);
+        words.collect::<Vec<_>>().join("; ")
+    })?;
+    Ok(scenario.at_impact_velocity(impact_velocity))
 }
 
 /// The record that stands for a test's projectile, if the test has to do with the materials that are fitted.

@@ -7,7 +7,11 @@ use serde::Serialize;
 
 use super::{
     Noise, Observer, ParameterRecord, Problem, Sample, Sampling, ScatterRecord, Stage, cancelled,
-    fit::Fit, heard, noise::SCATTER, predictive::PROBABILITIES, sampler,
+    fit::Fit,
+    heard,
+    noise::{SCATTER, independent},
+    predictive::PROBABILITIES,
+    sampler,
 };
 use crate::{
     Error,
@@ -101,14 +105,14 @@ pub(super) fn sample(
             .collect();
         if problem.noise == Noise::Estimated {
             // The logarithm of a standard deviation by n values has about the standard deviation √(1/2n).
-            let width = (0.5 / problem.training().count() as f64).sqrt();
+            let width = (0.5 / independent(&fit.spreads)).sqrt();
             let ln_scatter = fit.scatter.ln() + width * normal(count);
             state.push(ln_scatter.clamp(SCATTER.0.ln(), SCATTER.1.ln()));
         }
         state
     };
     sampler::sample(
-        |state| problem.ln_posterior(state),
+        |state| problem.ln_posterior(state, &fit.spreads),
         &start,
         sampling,
         seed,

@@ -1,11 +1,9 @@
 //! Predictions of the calibrated model for each measured value, and their agreement.
 
-use std::sync::atomic::AtomicUsize;
-
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{Counter, Observation, Problem, noise::deviation, sampler::Sample};
+use super::{Counter, Observation, Problem, sampler::Sample};
 use crate::{
     outcome::BandQuantity,
     statistics::{quantile, sorted},
@@ -105,22 +103,21 @@ impl Quality {
     }
 }
 
+/// States of the sample that are put through the model.
+pub(super) fn draws(sample: Option<&Sample>) -> Vec<&[f64]> {
+    sample.map_or_else(Vec::new, |sample| {
+        let every = (sample.kept().count() / DRAWS).max(1);
+        sample.kept().step_by(every).collect()
+    })
+}
+
 /// What the model says of all measured values, those kept out of the fit included.
 pub(super) fn predictions(
     problem: &Problem,
     best: &[f64],
-    sample: Option<&Sample>,
-    report: &(dyn Fn(f64) + Sync),
+    draws: &[&[f64]],
+    counter: &Counter<'_>,
 ) -> Vec<Prediction> {
-    let counter = Counter {
-        done: AtomicUsize::new(0),
-        total: problem.observations.len(),
-        report,
-    };
-    let draws: Vec<&[f64]> = sample.map_or_else(Vec::new, |sample| {
-        let every = (sample.kept().count() / DRAWS).max(1);
-        sample.kept().step_by(every).collect()
-    });
     let predict = |observation: &Observation| {
         let unit = |si: f64| observation.quantity.in_unit(si);
         let found = problem.prediction(observation, best).ok();
@@ -130,7 +127,10 @@ pub(super) fn predictions(
             .par_iter()
             .filter_map(|state| {
                 let value = problem.prediction(observation, &state[..fitted]).ok()?;
-                Some((value, deviation(observation, problem.scatter_in(state))))
+                Some((
+                    value,
+                    observation.spread().deviation(problem.scatter_in(state)),
+                ))
             })
             .collect();
         counter.count();
@@ -165,7 +165,7 @@ pub(super) fn predictions(
 }
 
 /// Quantile of normal distributions, given as means and standard deviations, that are equally likely.
-fn mixture_quantile(parts: &[(f64, f64)], probability: f64) -> f64 {
+pub(super) fn mixture_quantile(parts: &[(f64, f64)], probability: f64) -> f64 {
     let below = |y: f64| {
         let part = |(mean, deviation): &(f64, f64)| {
             0.5 * libm::erfc((mean - y) / deviation * std::f64::consts::FRAC_1_SQRT_2)

@@ -11,14 +11,16 @@ use std::{
 use rayon::prelude::*;
 
 use super::{
-    CorrectionRecord, Fitted, LeftOut, Noise, Observation, Observations, cancelled,
+    CorrectionRecord, CurveObservation, CurveSet, Fitted, LeftOut, Noise, Observation,
+    Observations, cancelled,
     least_squares::{Bounds, Unable},
-    noise::{SCATTER, deviation},
+    noise::{SCATTER, Spread},
 };
 use crate::{
     Error, Scenario, cost,
+    measured_curves::computed,
     model::{self, Control, Model},
-    outcome::{BandQuantity, Outcome},
+    outcome::{BandQuantity, Outcome, RunResult},
 };
 
 /// Parameters, measured values and the model between them.
@@ -29,6 +31,8 @@ pub struct Problem {
     pub fitted: Vec<Fitted>,
     /// Measured values that the model gives.
     pub observations: Vec<Observation>,
+    /// Measured curves that the model gives, those of a case together.
+    pub curve_sets: Vec<CurveSet>,
     /// Those that are not used.
     pub left_out: Vec<LeftOut>,
     /// How far they may be off.
@@ -84,14 +88,17 @@ impl Problem {
                 let message = format!("`{}` is fitted twice", parameter.key());
                 return Err(parameter.error(&message, "remove one of the two"));
             }
-            for observation in &observations.used {
-                parameter.check(&observation.template)?;
+            let of_values = observations.used.iter().map(|value| &value.template);
+            let of_curves = observations.curves.iter().map(|set| &set.template);
+            for template in of_values.chain(of_curves) {
+                parameter.check(template)?;
             }
         }
         let mut problem = Self {
             model,
             fitted,
             observations: observations.used,
+            curve_sets: observations.curves,
             left_out: observations.left_out,
             noise,
             stop,
@@ -99,19 +106,22 @@ impl Problem {
             correction: None,
         };
         problem.leave_out()?;
+        problem.cover_curves()?;
         problem.check_count()?;
         Ok(problem)
     }
 
     /// Makes sure that there are enough values to fit to.
     pub(super) fn check_count(&self) -> Result<(), Error> {
-        let training = self.training().count();
+        let values = self.training().count();
+        let of_curves = self.training_curves().map(CurveObservation::values);
+        let training = values + of_curves.sum::<usize>();
         if training == 0 {
             return Err(refuse(
                 "there is no measured value to fit to".to_owned(),
                 match self.left_out.last() {
                     Some(left) => format!("`{}`, for example, is left out: {}", left.id, left.reason),
-                    None => "give cases with [[experiments]], or --data with tests of the material that is fitted".to_owned(),
+                    None => "give cases with [[experiments]] or [[measured_curves]], or --data with tests of the material that is fitted".to_owned(),
                 },
             ));
         }
@@ -142,27 +152,7 @@ impl Problem {
             .into_iter()
             .zip(predicted)
         {
-            let scatter = self.noise.given().unwrap_or(SCATTER.0);
-            let reason = match predicted {
-                Err(Silent::Always(reason)) => Some(reason),
-                Err(Silent::Stopped) => return Err(cancelled(self)),
-                Err(Silent::Here(reason)) => {
-                    let message = format!(
-                        "the model `{}` fails on `{}` with every parameter in the middle of its range: {reason}",
-                        self.model.name(),
-                        observation.id
-                    );
-                    return Err(refuse(message, "give other ranges".to_owned()));
-                }
-                _ if deviation(&observation, scatter) > 0.0 => None,
-                _ if self.noise == Noise::Stated => {
-                    let message = format!("`{}` has no stated uncertainty", observation.id);
-                    let help = "give one, or let the scatter be estimated, or give it with --noise \"2 %\"";
-                    return Err(refuse(message, help.to_owned()));
-                }
-                _ => Some("a value of 0 has no relative scatter".to_owned()),
-            };
-            match reason {
+            match self.unusable(&observation.id, observation.spread(), predicted.err())? {
                 Some(reason) => self.left_out.push(LeftOut {
                     id: observation.id,
                     reason,
@@ -172,6 +162,100 @@ impl Problem {
         }
         self.observations = used;
         Ok(())
+    }
+
+    /// Why something measured is left out, if it is: the model does not give it, or it has no standard deviation.
+    fn unusable(
+        &self,
+        id: &str,
+        spread: Spread,
+        silent: Option<Silent>,
+    ) -> Result<Option<String>, Error> {
+        let scatter = self.noise.given().unwrap_or(SCATTER.0);
+        Ok(match silent {
+            Some(Silent::Always(reason)) => Some(reason),
+            Some(Silent::Stopped) => return Err(cancelled(self)),
+            Some(Silent::Here(reason)) => {
+                let message = format!(
+                    "the model `{}` fails on `{id}` with every parameter in the middle of its range: {reason}",
+                    self.model.name(),
+                );
+                return Err(refuse(message, "give other ranges".to_owned()));
+            }
+            None if spread.deviation(scatter) > 0.0 => None,
+            None if self.noise == Noise::Stated => {
+                let message = format!("`{id}` has no stated uncertainty");
+                let help =
+                    "give one, or let the scatter be estimated, or give it with --noise \"2 %\"";
+                return Err(refuse(message, help.to_owned()));
+            }
+            None => Some("what is 0 has no relative scatter".to_owned()),
+        })
+    }
+
+    /// Takes the points of the curves that the run covers with every parameter in the middle of its range, and leaves out curves that
+    /// cannot be used.
+    fn cover_curves(&mut self) -> Result<(), Error> {
+        let middle = self.middle();
+        let results: Vec<Result<RunResult, Silent>> = self
+            .curve_sets
+            .par_iter()
+            .map(|set| {
+                let scenario = set.scenario(&self.fitted, &middle).map_err(Silent::Here)?;
+                self.run_with(&scenario, true)
+            })
+            .collect();
+        let sets = std::mem::take(&mut self.curve_sets);
+        for (mut set, result) in sets.into_iter().zip(results) {
+            let mut kept = Vec::new();
+            for index in 0..set.curves.len() {
+                let curve = &set.curves[index].curve;
+                let found = match &result {
+                    Ok(result) => computed(curve, result.history.as_ref()).map_err(Silent::Always),
+                    Err(silent) => Err(silent.clone()),
+                };
+                let silent = match found {
+                    Ok(found) => {
+                        set.cover(index, &found)?;
+                        None
+                    }
+                    Err(silent) => Some(silent),
+                };
+                let curve = &set.curves[index];
+                match self.unusable(&curve.id, curve.spread(), silent)? {
+                    Some(reason) => self.left_out.push(LeftOut {
+                        id: curve.id.clone(),
+                        reason,
+                    }),
+                    None => kept.push(curve.clone()),
+                }
+            }
+            if !kept.is_empty() {
+                set.curves = kept;
+                self.curve_sets.push(set);
+            }
+        }
+        Ok(())
+    }
+
+    /// The measured curves.
+    pub fn curves(&self) -> impl Iterator<Item = &CurveObservation> {
+        self.curve_sets.iter().flat_map(|set| &set.curves)
+    }
+
+    /// Curves that are fitted to.
+    pub fn training_curves(&self) -> impl Iterator<Item = &CurveObservation> {
+        self.curves().filter(|curve| !curve.held_out)
+    }
+
+    /// How what is fitted to is distributed about the model, in the order of its differences; correlation times of all curves are given.
+    pub(super) fn spreads(&self, correlation_times: &[f64]) -> Vec<Spread> {
+        let curves = self.curves().zip(correlation_times);
+        let curves = curves.filter(|(curve, _)| !curve.held_out);
+        self.training()
+            .map(Observation::spread)
+            .chain(curves.flat_map(|(curve, time)| curve.spreads(*time)))
+            .collect()
     }
 
     /// Values that are fitted to.
@@ -207,32 +291,57 @@ impl Problem {
         self.compute(&scenario, observation.quantity).ok()
     }
 
-    pub(super) fn compute(
+    /// What the model gives for the curves of a set, each at its points and in SI units.
+    pub(super) fn curves_of(
         &self,
-        scenario: &Scenario,
-        quantity: BandQuantity,
-    ) -> Result<f64, Silent> {
+        set: &CurveSet,
+        values: &[f64],
+    ) -> Result<Vec<Vec<f64>>, Silent> {
+        let scenario = set.scenario(&self.fitted, values).map_err(Silent::Here)?;
+        let result = self.run_with(&scenario, true)?;
+        let curves = set.curves.iter();
+        curves.map(|curve| curve.predicted(&result)).collect()
+    }
+
+    /// A run for the curves of a set, with values or as the case is written.
+    pub(super) fn curve_run(&self, set: &CurveSet, values: Option<&[f64]>) -> Option<RunResult> {
+        let (fitted, values) = match values {
+            Some(values) => (self.fitted.as_slice(), values),
+            None => (&[][..], &[][..]),
+        };
+        self.run_with(&set.scenario(fitted, values).ok()?, true)
+            .ok()
+    }
+
+    fn run_with(&self, scenario: &Scenario, record: bool) -> Result<RunResult, Silent> {
         let mut observer = |_| match self.stop.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         };
         let mut control = Control {
-            record: false,
+            record,
             progress: Some(&mut observer),
             ..Control::default()
         };
         self.runs.fetch_add(1, Ordering::Relaxed);
+        match model::run(self.model, scenario, &mut control) {
+            Ok(result) => Ok(result),
+            Err(Error::NotApplicable { refusal, .. }) => Err(Silent::Always(refusal.to_string())),
+            Err(Error::Cancelled { .. }) => Err(Silent::Stopped),
+            Err(error) => Err(Silent::Here(error.to_string())),
+        }
+    }
+
+    pub(super) fn compute(
+        &self,
+        scenario: &Scenario,
+        quantity: BandQuantity,
+    ) -> Result<f64, Silent> {
         if !self.model.validity().predicts.contains(&quantity) {
+            self.runs.fetch_add(1, Ordering::Relaxed);
             return Err(Silent::Always(gives_no(self.model.name(), quantity)));
         }
-        let result = match model::run(self.model, scenario, &mut control) {
-            Ok(result) => result,
-            Err(Error::NotApplicable { refusal, .. }) => {
-                return Err(Silent::Always(refusal.to_string()));
-            }
-            Err(Error::Cancelled { .. }) => return Err(Silent::Stopped),
-            Err(error) => return Err(Silent::Here(error.to_string())),
-        };
+        let result = self.run_with(scenario, false)?;
         if result.outcome == Outcome::OutOfTime {
             return Err(Silent::Here("the run ended before the test did".to_owned()));
         }
@@ -245,39 +354,60 @@ impl Problem {
         }
     }
 
-    /// Differences between model and measured values that are fitted to, in their order [m or m/s].
+    /// Differences between model and measured values that are fitted to, in their order, then those of the curves at their points, in SI
+    /// units.
     pub(super) fn differences(&self, values: &[f64]) -> Result<Vec<f64>, Unable> {
-        let difference = |observation: &&Observation| {
+        let difference = |part: &Part<'_>| -> Result<Vec<f64>, Silent> {
             if self.stop.load(Ordering::Relaxed) {
-                return Err(Unable::Stopped);
+                return Err(Silent::Stopped);
             }
-            match self.prediction(observation, values) {
-                Ok(predicted) => Ok(predicted - observation.measured),
-                Err(Silent::Stopped) => Err(Unable::Stopped),
-                Err(_) => Err(Unable::Failed),
+            match part {
+                Part::Value(observation) => {
+                    let predicted = self.prediction(observation, values)?;
+                    Ok(vec![predicted - observation.measured])
+                }
+                Part::Curves(set) => {
+                    let curves = set.curves.iter().zip(self.curves_of(set, values)?);
+                    let training = curves.filter(|(curve, _)| !curve.held_out);
+                    Ok(training
+                        .flat_map(|(curve, predicted)| curve.differences(&predicted))
+                        .collect())
+                }
             }
         };
-        let training: Vec<&Observation> = self.training().collect();
-        let found: Vec<Result<f64, Unable>> = training.par_iter().map(difference).collect();
-        if found.contains(&Err(Unable::Stopped)) {
+        let trained = |set: &&CurveSet| set.curves.iter().any(|curve| !curve.held_out);
+        let values = self.training().map(Part::Value);
+        let curves = self.curve_sets.iter().filter(trained).map(Part::Curves);
+        let parts: Vec<Part<'_>> = values.chain(curves).collect();
+        let found: Vec<Result<Vec<f64>, Silent>> = parts.par_iter().map(difference).collect();
+        if found.contains(&Err(Silent::Stopped)) {
             return Err(Unable::Stopped);
         }
-        found.into_iter().collect()
+        let mut differences = Vec::new();
+        for part in found {
+            differences.extend(part.map_err(|_| Unable::Failed)?);
+        }
+        Ok(differences)
     }
 
     /// Differences over their standard deviations, then the scores of the parameters in their priors.
-    pub(super) fn residuals(&self, values: &[f64], scatter: f64) -> Result<Vec<f64>, Unable> {
-        let differences = self.differences(values)?.into_iter().zip(self.training());
+    pub(super) fn residuals(
+        &self,
+        values: &[f64],
+        spreads: &[Spread],
+        scatter: f64,
+    ) -> Result<Vec<f64>, Unable> {
+        let differences = self.differences(values)?.into_iter().zip(spreads);
         let scores = self.fitted.iter().zip(values);
         Ok(differences
-            .map(|(difference, observation)| difference / deviation(observation, scatter))
+            .map(|(difference, spread)| spread.residual(difference, scatter))
             .chain(scores.map(|(parameter, value)| parameter.prior.score(*value)))
             .collect())
     }
 
     /// Logarithm of the posterior density, up to a constant, of the parameters and, where it is estimated, the logarithm of the
     /// scatter.
-    pub(super) fn ln_posterior(&self, state: &[f64]) -> f64 {
+    pub(super) fn ln_posterior(&self, state: &[f64], spreads: &[Spread]) -> f64 {
         let (values, rest) = state.split_at(self.fitted.len());
         let prior: f64 = self
             .fitted
@@ -298,11 +428,10 @@ impl Problem {
         let Ok(differences) = self.differences(values) else {
             return f64::NEG_INFINITY;
         };
-        let likelihood = |(difference, observation): (f64, &Observation)| {
-            let deviation = deviation(observation, scatter);
-            -0.5 * (difference / deviation).powi(2) - deviation.ln()
-        };
-        let likelihoods = differences.into_iter().zip(self.training()).map(likelihood);
+        let likelihoods = differences
+            .into_iter()
+            .zip(spreads)
+            .map(|(difference, spread)| spread.ln_likelihood(difference, scatter));
         prior + likelihoods.sum::<f64>()
     }
 
@@ -314,6 +443,12 @@ impl Problem {
             .or(ln_scatter.map(f64::exp))
             .unwrap_or(f64::NAN)
     }
+}
+
+/// Part of what is fitted to, by one run.
+enum Part<'a> {
+    Value(&'a Observation),
+    Curves(&'a CurveSet),
 }
 
 fn gives_no(model: &str, quantity: BandQuantity) -> String {

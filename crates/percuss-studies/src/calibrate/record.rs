@@ -57,10 +57,10 @@ pub fn records(
                 parameter.change(rounded.unwrap_or(found.best))
             })
             .collect();
-        let from = problem
-            .observations
-            .iter()
-            .find_map(|o| o.template.material(id, &changes).transpose());
+        let values = problem.observations.iter().map(|value| &value.template);
+        let curves = problem.curve_sets.iter().map(|set| &set.template);
+        let mut templates = values.chain(curves);
+        let from = templates.find_map(|template| template.material(id, &changes).transpose());
         let material = match from {
             Some(Ok(material)) => material,
             Some(Err(findings)) => {
@@ -89,12 +89,20 @@ pub fn records(
 /// A record with what it was calibrated on.
 fn stamped(problem: &Problem, calibration: &Calibration, id: &str, material: Material) -> Material {
     let mut sources: Vec<String> = Vec::new();
-    for source in problem.training().flat_map(|o| &o.sources) {
+    let of_values = problem.training().map(|value| &value.sources);
+    let of_curves = problem.training_curves().map(|curve| &curve.curve.sources);
+    for source in of_values.chain(of_curves).flatten() {
         if !sources.contains(source) {
             sources.push(source.clone());
         }
     }
-    let tests: Vec<String> = problem.training().map(|o| o.id.clone()).collect();
+    let values = problem.training().map(|value| value.id.clone());
+    let curves = problem.training_curves().map(|curve| curve.id.clone());
+    let (value_count, curve_count) = (
+        problem.training().count(),
+        problem.training_curves().count(),
+    );
+    let tests: Vec<String> = values.chain(curves).collect();
     let own = problem
         .fitted
         .iter()
@@ -139,16 +147,25 @@ fn stamped(problem: &Problem, calibration: &Calibration, id: &str, material: Mat
         Some(_) => ", corrected to axisymmetric answers",
         None => "",
     };
+    let mut errors = String::new();
+    if let Some(quality) = &calibration.training {
+        errors += &format!(" RMS relative error {:.1} %.", 100.0 * quality.rms);
+    }
+    for curve in calibration.curves.iter().filter(|curve| !curve.held_out) {
+        if let Some(part) = curve.best.and_then(|best| best.relative_rms_difference) {
+            let (name, part) = (&curve.name, 100.0 * part);
+            errors += &format!(" Relative RMS difference of the curve {name} {part:.1} %.");
+        }
+    }
     let note = format!(
-        "Calibrated from {} of {} with the model `{}`{corrected} (percuss {}, seed {}): {}. RMS relative error {:.1} %.{determined} \
+        "Calibrated from {} of {} with the model `{}`{corrected} (percuss {}, seed {}): {}.{errors}{determined} \
          The other constants are those of `{id}`{others}",
-        counted(tests.len()),
+        counted(value_count, curve_count),
         sources.join(", "),
         calibration.model,
         calibration.percuss_version,
         calibration.seed,
         values.join(", "),
-        100.0 * calibration.training.rms,
     );
     let mut all = sources.clone();
     all.extend(
@@ -177,9 +194,13 @@ fn stamped(problem: &Problem, calibration: &Calibration, id: &str, material: Mat
     }
 }
 
-fn counted(values: usize) -> String {
-    match values {
-        1 => "1 measured value".to_owned(),
-        _ => format!("{values} measured values"),
-    }
+fn counted(values: usize, curves: usize) -> String {
+    let some = |count: usize, what: &str| match count {
+        0 => None,
+        1 => Some(format!("1 measured {what}")),
+        _ => Some(format!("{count} measured {what}s")),
+    };
+    let parts = [some(values, "value"), some(curves, "curve")];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    parts.join(" and ")
 }

@@ -107,7 +107,7 @@ fn the_yield_stress_of_taylor_tests_is_recovered() {
         found.findings.is_empty() && found.warnings.is_empty(),
         "{found:?}"
     );
-    assert!(found.training.rms < 1e-8);
+    assert!(found.training.unwrap().rms < 1e-8);
 }
 
 #[test]
@@ -159,7 +159,7 @@ fn intervals_cover_the_truth_and_the_hold_out() {
     let quality = found.hold_out.unwrap();
     assert_eq!(quality.count, 4);
     assert!(quality.inside.unwrap() >= 3);
-    assert_eq!(found.training.count, 8);
+    assert_eq!(found.training.unwrap().count, 8);
 }
 
 #[test]

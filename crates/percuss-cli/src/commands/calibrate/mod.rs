@@ -38,10 +38,10 @@ use crate::{
 };
 
 const LONG_ABOUT: &str = "\
-Calibrate material constants and model options against experiments. The measured
-values are the [[experiments]] of case files and the tests of --data. Where
-constants of a material are fitted, only tests with that material are used;
-suspect and repeated tests are left out.
+Calibrate material constants and model options against experiments. The data are
+the [[experiments]] and [[measured_curves]] of case files and the tests of
+--data. Where constants of a material are fitted, only tests with that material
+are used; suspect and repeated tests are left out.
 
 --fit KEY=LOW..HIGH gives the dotted key of a number and the range of a uniform
 prior, with the unit behind the range; or a TOML file of [[parameter]] tables
@@ -52,17 +52,21 @@ Least squares (Levenberg-Marquardt) give the best fit; an ensemble sampler
 (stretch move) the posterior, with rank-normalised split R-hat (a warning above
 1.01) and effective sample sizes of bulk and tails. The error model is Gaussian:
 the stated standard deviation, and a relative scatter that is estimated unless
---noise gives it. Sources of --hold-out are not fitted; they test the result.
+--noise gives it. The errors of a curve are correlated in time: it counts as
+the number of independent values that its `correlation_time` leaves, which is
+estimated from the residuals unless the case gives it. Sources of --hold-out
+are not fitted; they test the result.
 Parameters that the data do not identify are reported.
 
 With --reference the model is corrected to the axisymmetric model `axi`: each
 depth or length by the factor axi/model at the best values, each residual
 velocity by the difference. Fits and axisymmetric runs alternate until they
 agree to 1 %. The best values are then those of `axi`, at a few of its runs.
-Their discretisation uncertainty adds to the standard deviations.
+Their discretisation uncertainty adds to the standard deviations. Curves are
+left out.
 
-With --out DIR the result (calibration.json), tables of parameters and
-predictions, the sample (sample.parquet), the calibrated materials
+With --out DIR the result (calibration.json), tables of parameters, predictions
+and curves, the sample (sample.parquet), the calibrated materials
 (material.toml, for `material_files` of a case or `--materials` of commands)
 and figures are written to DIR. A calibrated material lists
 the data of its calibration, and validation does not count these as blind.";
@@ -73,6 +77,8 @@ Examples:
     --model wilkins_guinan --out copper --fit \\
     \"materials.ofhc-copper-johnson-cook.strength.johnson_cook.a=20..300 MPa\"
   percuss calibrate my-case/scenario.toml --fit chain.constraint_factor=1..4
+  percuss calibrate bar.toml --model fdm --fit \\
+    \"materials.my-steel.strength.perfectly_plastic.flow_stress=200..900 MPa\"
   percuss calibrate a.toml b.toml --fit priors.toml --least-squares --json
 
 Exit codes: 0 ok, 2 bad input, 4 a file could not be read or written, 130 the
@@ -82,7 +88,7 @@ calibration was stopped";
 #[derive(Debug, Args)]
 #[command(long_about = LONG_ABOUT, after_help = AFTER_HELP)]
 pub struct Calibrate {
-    /// Case files with [[experiments]]
+    /// Case files with [[experiments]] or [[measured_curves]]
     #[arg(value_name = "CASE.toml", required_unless_present = "data")]
     cases: Vec<PathBuf>,
     /// Parameter to fit: key of a number with its range, or a TOML file of parameters
@@ -209,7 +215,7 @@ impl Calibrate {
         {
             return Err(observations.no_source(key).into());
         }
-        observations.used.retain(|value| wanted(&value.sources));
+        observations.keep(wanted);
         observations.hold_out(&self.hold_out)?;
         Ok(Problem::new(
             model(&self.model)?,

@@ -1,10 +1,12 @@
 //! Terminal output of a calibration.
 
 use percuss::{
-    calibrate::{Calibration, CorrectionRecord, Marginal, ParameterRecord},
+    calibrate::{
+        Calibration, CorrectionRecord, CurveError, CurvePrediction, Marginal, ParameterRecord,
+    },
     units::significant,
 };
-use percuss_report::table::Table;
+use percuss_report::table::{Table, number};
 
 use crate::{
     table::{blocks, wrapped},
@@ -26,6 +28,7 @@ pub fn text(calibration: &Calibration) -> String {
     text += &calibration.correction.map_or_else(String::new, correction);
     text += &parameters(calibration);
     text += &quality(calibration);
+    text += &curves(calibration);
     text += &sample(calibration);
     if !calibration.left_out.is_empty() {
         text += &left_out(calibration);
@@ -142,13 +145,12 @@ fn names(parameters: &[ParameterRecord]) -> Vec<String> {
 
 fn quality(calibration: &Calibration) -> String {
     let percent = |value: f64| format!("{:.1} %", 100.0 * value);
-    let mut rows = vec![("fitted", &calibration.training)];
-    rows.extend(
-        calibration
-            .hold_out
-            .iter()
-            .map(|quality| ("held out", quality)),
-    );
+    let fitted = calibration.training.iter().map(|all| ("fitted", all));
+    let held_out = calibration.hold_out.iter().map(|all| ("held out", all));
+    let rows: Vec<_> = fitted.chain(held_out).collect();
+    if rows.is_empty() {
+        return String::new();
+    }
     let table = Table::of(&rows)
         .words("values", |(name, _)| *name)
         .words("count", |(_, quality)| quality.count.to_string())
@@ -166,6 +168,46 @@ fn quality(calibration: &Calibration) -> String {
         })
         .table();
     wrapped(&table, [])
+}
+
+fn curves(calibration: &Calibration) -> String {
+    let rows = &calibration.curves;
+    if rows.is_empty() {
+        return String::new();
+    }
+    let error = |error: Option<CurveError>| number(error.and_then(|error| error.rms_difference), 3);
+    let relative = |curve: &CurvePrediction| {
+        let part = curve.best.and_then(|best| best.relative_rms_difference);
+        number(part.map(|part| 100.0 * part), 3)
+    };
+    let correlation = |curve: &CurvePrediction| {
+        let time = significant(curve.correlation_time_us, 2);
+        match curve.correlation_estimated {
+            true => time,
+            false => format!("{time} (given)"),
+        }
+    };
+    let table = Table::of(rows)
+        .words("curve", |curve| curve.id.clone())
+        .words("part", |curve| {
+            if curve.held_out { "held out" } else { "fitted" }.to_owned()
+        })
+        .numbers("values", "", |curve| curve.values.to_string())
+        .numbers("effective\nnumber", "", |curve| {
+            significant(curve.effective_values, 3)
+        })
+        .words("correlation\ntime [us]", correlation)
+        .words("unit", |curve| curve.unit.to_owned())
+        .numbers("RMS diff.\nbefore", "", |curve| error(curve.before))
+        .numbers("RMS diff.", "", |curve| error(curve.best))
+        .numbers("relative", "%", relative)
+        .when(calibration.sampling.is_some(), |rows| {
+            rows.numbers("in the 95 %\nband", "%", |curve| {
+                number(curve.inside.map(|part| 100.0 * part), 3)
+            })
+        })
+        .table();
+    blocks(&table)
 }
 
 fn sample(calibration: &Calibration) -> String {
@@ -187,9 +229,13 @@ fn sample(calibration: &Calibration) -> String {
 fn left_out(calibration: &Calibration) -> String {
     const SHOWN: usize = 6;
     let all = &calibration.left_out;
+    let what = match calibration.curves.is_empty() {
+        true => "value",
+        false => "value or curve",
+    };
     let mut text = format!(
         "{}\n",
-        bold(format!("{} left out", counted(all.len(), "value")))
+        bold(format!("{} left out", counted(all.len(), what)))
     );
     for left in all.iter().take(SHOWN) {
         let line = format!("{}: {}", left.id, left.reason);

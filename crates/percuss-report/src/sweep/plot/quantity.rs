@@ -1,6 +1,9 @@
 //! Choice of the drawn result and its label.
 
-use percuss::summary::{Role, result_number};
+use percuss::{
+    error::nearest,
+    summary::{Role, result_number},
+};
 
 use super::super::{manifest::Manifest, parts::Parts, rows::has_numbers};
 use crate::{
@@ -20,10 +23,12 @@ pub(super) fn choose(parts: &Parts<'_>, wanted: Option<&str>) -> Result<String, 
     };
     let fail = |reason: String| {
         let names: Vec<&str> = all().map(|(_, column)| column.name.as_str()).collect();
+        let near = wanted.and_then(|wanted| nearest(wanted, names.iter().copied()));
+        let near = near.map_or_else(String::new, |name| format!("did you mean `{name}`? "));
         ReportError::Sweep {
             path: parts.first().to_owned(),
             reason,
-            remedy: format!("--quantity takes one of {}", names.join(", ")),
+            remedy: format!("{near}--quantity takes one of {}", names.join(", ")),
         }
     };
     if let Some(wanted) = wanted {
