@@ -197,14 +197,14 @@ impl Problem {
     /// cannot be used.
     fn cover_curves(&mut self) -> Result<(), Error> {
         let middle = self.middle();
-        let results: Vec<Result<RunResult, Silent>> = self
-            .curve_sets
-            .par_iter()
-            .map(|set| {
-                let scenario = set.scenario(&self.fitted, &middle).map_err(Silent::Here)?;
-                self.run_with(&scenario, true)
-            })
-            .collect();
+        let run = |set: &CurveSet| {
+            let scenario = set.scenario(&self.fitted, &middle).map_err(Silent::Here)?;
+            self.run_with(&scenario, true)
+        };
+        let results: Vec<Result<RunResult, Silent>> =
+            cost::within_memory(self.memory(None), || {
+                self.curve_sets.par_iter().map(run).collect()
+            });
         let sets = std::mem::take(&mut self.curve_sets);
         for (mut set, result) in sets.into_iter().zip(results) {
             let mut kept = Vec::new();
