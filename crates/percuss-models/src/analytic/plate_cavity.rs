@@ -182,7 +182,7 @@ impl Model for PlateCavity {
                 ],
                 first_choice: &[FirstChoice {
                     projectile: ProjectileRegime::Rigid,
-                    targets: &[TargetKind::ThickPlate, TargetKind::Plate],
+                    targets: TargetKind::PLATES,
                     noses: NoseKind::SHARP,
                     target_material: MaterialClass::Metal,
                     because: "sharp rigid projectiles open ductile plates by pushing the metal aside, and no constant is fitted",
