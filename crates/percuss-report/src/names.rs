@@ -31,7 +31,12 @@ pub(crate) fn result_column(column: &str) -> (String, &'static str) {
 /// Name of a parameter of a case by its dotted key.
 pub(crate) fn parameter(key: &str) -> String {
     let parts: Vec<&str> = key.split('.').collect();
-    let words = |part: &str| part.replace('_', " ");
+    let words = |part: &str| {
+        let words = part.replace('_', " ");
+        words
+            .replace("youngs", "Young's")
+            .replace("poissons", "Poisson's")
+    };
     capitalized(&match parts.as_slice() {
         ["projectile", "velocity" | "impact_velocity"] => "impact velocity".to_owned(),
         ["projectile", rest @ ..] => format!("projectile {}", words(&rest.join(", "))),
@@ -86,6 +91,8 @@ mod tests {
                 "Power-law coefficient, copper",
             ),
             ("materials.copper.density", "Density, copper"),
+            ("materials.copper.youngs_modulus", "Young's modulus, copper"),
+            ("materials.copper.poissons_ratio", "Poisson's ratio, copper"),
             ("chain.constraint_factor", "Constraint factor"),
             (
                 "chain.artificial_viscosity.linear",
