@@ -262,6 +262,13 @@ strength.elastic = {{}}
 }
 
 const MODULUS: &str = "materials.bar.youngs_modulus=60..200 GPa";
+const BEST: [&str; 5] = [
+    "calibrate",
+    "case.toml",
+    "--fit",
+    MODULUS,
+    "--least-squares",
+];
 const OF_BAR: &str = "[[measured_curves]]\nfile = 'gauge.csv'\ngauge = 'bar'\n";
 
 /// A folder with the gauge of a run as the measured curve of a case with another modulus.
@@ -358,16 +365,7 @@ fn a_curve_is_held_out_and_cut_with_a_warning() {
     let mut table = fs::read_to_string(path.join("gauge.csv")).unwrap();
     table += "30,0\n40,0\n";
     fs::write(path.join("gauge.csv"), table).unwrap();
-    let line = [
-        "calibrate",
-        "case.toml",
-        "--fit",
-        MODULUS,
-        "--least-squares",
-        "--hold-out",
-        "blind",
-        "--json",
-    ];
+    let line = [&BEST[..], &["--hold-out", "blind", "--json"]].concat();
     let found = json(&percuss(path, line).ok());
     let curves = found["curves"].as_array().unwrap();
     let held_out: Vec<bool> = curves.iter().map(|c| c["held_out"] == true).collect();
@@ -453,14 +451,7 @@ fn a_wrong_curve_is_refused_with_its_place() {
         if let Some(table) = table {
             fs::write(path.join("gauge.csv"), table).unwrap();
         }
-        let line = [
-            "calibrate",
-            "case.toml",
-            "--fit",
-            MODULUS,
-            "--least-squares",
-        ];
-        let said = percuss(path, line);
+        let said = percuss(path, BEST);
         assert_eq!(said.code, 2, "{keys} {table:?} {}", said.stdout);
         let words = crate::support::flat(&said.stderr);
         for part in [place, message, help] {
@@ -469,14 +460,7 @@ fn a_wrong_curve_is_refused_with_its_place() {
     }
     let folder = bar_folder("", "");
     let path = folder.path();
-    let line = [
-        "calibrate",
-        "case.toml",
-        "--fit",
-        MODULUS,
-        "--least-squares",
-    ];
-    let said = percuss(path, [&line[..], &["--noise", "stated"]].concat());
+    let said = percuss(path, [&BEST[..], &["--noise", "stated"]].concat());
     assert_eq!(said.code, 2);
     assert!(
         said.stderr.contains("no stated uncertainty"),
@@ -497,7 +481,7 @@ fn a_wrong_curve_is_refused_with_its_place() {
     assert!(said.stderr.contains("is left out"), "{}", said.stderr);
     let case = bars("90 GPa", &OF_BAR.replace("'bar'", "'rod'"));
     fs::write(path.join("case.toml"), case).unwrap();
-    let said = percuss(path, line);
+    let said = percuss(path, BEST);
     assert_eq!(said.code, 2);
     let words = crate::support::flat(&said.stderr);
     assert!(

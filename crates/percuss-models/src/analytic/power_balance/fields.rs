@@ -154,9 +154,6 @@ pub(super) struct Layer {
     pub gain: f64,
 }
 
-/// Layers of the plate.
-pub(super) const LAYERS: usize = 16;
-
 /// Stress of metal that moves around a growing hole, by the radius out to which it moves.
 #[derive(Debug)]
 pub(super) struct HoleStress {
@@ -215,7 +212,7 @@ impl HoleStress {
 /// needs the least shear. The strain of a ring is that of a hole grown from nothing in plane strain, `−ln(1 − c²/r²)/√3`.
 ///
 /// `near`: radius of the moving metal over that of the hole in a similar field, where one is known.
-pub(super) fn hole(
+pub(super) fn hole<const LAYERS: usize>(
     stress: &HoleStress,
     layers: &[Layer; LAYERS],
     thickness: f64,

@@ -3,11 +3,13 @@
 use std::f64::consts::PI;
 
 use super::{
-    fields::{LAYERS, Layer, Rim, Slip, hole, punch, rim},
+    fields::{Layer, Rim, Slip, hole, punch, rim},
     motion::{Impact, MotionState},
 };
 use crate::{analytic::nose_shape::radius, material::DamageState, regime::nose_factor};
 
+/// Layers of the plate.
+pub(super) const LAYERS: usize = 16;
 /// Slip in thicknesses that a rim at rest is given.
 const LEAST_SLIP: f64 = 1e-6;
 /// Largest growth of the slip between two bands.
@@ -112,6 +114,20 @@ impl Impact {
         (slow * self.area(), inertial * self.area())
     }
 
+    /// Layers of equal thickness around a nose that has sunk so far [m].
+    pub fn layers<const COUNT: usize>(&self, sunk: f64) -> [Layer; COUNT] {
+        let square = |behind: f64| radius(self.nose, self.diameter, behind).powi(2);
+        let height = self.thickness / COUNT as f64;
+        std::array::from_fn(|i| {
+            let behind = sunk - i as f64 * height;
+            let (wide, narrow) = (square(behind), square(behind - height));
+            Layer {
+                radius: (0.5 * (wide + narrow)).sqrt(),
+                gain: PI * (wide - narrow),
+            }
+        })
+    }
+
     /// Plastic and inertial force on a pointed or round nose [N]; `extent` is that of the field before, then of this one.
     pub fn opening(&self, sunk: f64, relative: f64, extent: &mut Option<f64>) -> (f64, f64) {
         let at = |behind: f64| radius(self.nose, self.diameter, behind);
@@ -122,16 +138,7 @@ impl Impact {
         }
         let factor = nose_factor(self.nose);
         let growth = relative * factor.sqrt();
-        let height = self.thickness / LAYERS as f64;
-        let mut layers = [Layer::default(); LAYERS];
-        for (i, layer) in layers.iter_mut().enumerate() {
-            let behind = sunk - (i as f64 + 0.5) * height;
-            let (wide, narrow) = (at(behind + 0.5 * height), at(behind - 0.5 * height));
-            *layer = Layer {
-                radius: (0.5 * (wide * wide + narrow * narrow)).sqrt(),
-                gain: PI * (wide * wide - narrow * narrow),
-            };
-        }
+        let layers = self.layers::<LAYERS>(sunk);
         let hole = hole(&self.hole_stress, &layers, self.thickness, *extent);
         *extent = Some(hole.extent);
         let slow = hole.force.min(self.cavity_pressures[1] * contact);

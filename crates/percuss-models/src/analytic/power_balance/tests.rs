@@ -1,8 +1,9 @@
 use std::f64::consts::PI;
 
 use super::{
-    fields::{Dish, HoleStress, LAYERS, Layer, Slip, hole, punch, rim},
+    fields::{Dish, HoleStress, Layer, Slip, hole, punch, rim},
     flow::{Flow, METALS, Metal, OTHER_METALS, own_melting_heat},
+    forces::LAYERS,
     history, impact,
     links::{Body, Row, step},
     motion::Impact,
@@ -275,6 +276,30 @@ fn a_hole_in_a_thick_plate_has_the_pressure_of_a_cavity() {
         (wide.inertia - (wide.extent.ln() - 0.75)).abs() < 1e-4 * wide.inertia,
         "{wide:?}"
     );
+}
+
+/// The work of a whole passage, and its contact, do not depend on the number of layers.
+#[test]
+fn layers_are_fine_enough() {
+    for nose in &NOSES[1..] {
+        for thickness in [10.0, 20.0, 40.0] {
+            let impact = of(PERFECT, nose, thickness, COLD);
+            let steps = 200;
+            let step = impact.passage() / f64::from(steps);
+            let (mut coarse, mut fine) = (0.0, 0.0);
+            for i in 0..steps {
+                let sunk = (f64::from(i) + 0.5) * step;
+                let few = impact.layers::<LAYERS>(sunk);
+                let many = impact.layers::<128>(sunk);
+                let gain = |layers: &[Layer]| layers.iter().map(|l| l.gain).sum::<f64>();
+                assert!((gain(&few) / gain(&many) - 1.0).abs() < 1e-9);
+                coarse += hole(&impact.hole_stress, &few, impact.thickness, None).force;
+                fine += hole(&impact.hole_stress, &many, impact.thickness, None).force;
+            }
+            println!("{nose} {thickness}: {}", coarse / fine - 1.0);
+            assert!((coarse / fine - 1.0).abs() < 2e-2, "{nose} {thickness}");
+        }
+    }
 }
 
 #[test]
