@@ -1,4 +1,4 @@
-// Calibration: parameters of a case fitted to its experiments.
+// Calibration: parameters of a case fitted to its experiments and measured curves.
 
 import { make, significant, table } from "./dom";
 import { labelled, options, type Kind, type Page } from "./panel";
@@ -28,7 +28,7 @@ export function calibration(page: Page, numbers: Numbers): Kind {
   const seed = make("input", { type: "number", min: "0", max: "9007199254740991", step: "1", value: "0" });
   return {
     title: "Calibrate",
-    about: "parameters of the case fitted to its experiments",
+    about: "parameters of the case fitted to its experiments and measured curves",
     path: "/api/study/calibrate",
     inputs: [labelled("method", method), stepsLabel, labelled("scatter", noise), labelled("hold out", heldOut), labelled("seed", seed)],
     below: parameters.element,
@@ -119,7 +119,7 @@ function curveTable({ calibration: found }: Calibrated): HTMLElement {
     number(c.best?.rms_difference ?? null),
     percent(c.best?.relative_rms_difference ?? null),
   ]);
-  const head = ["measured curve", "values", "worth", "correlation time [µs]", "unit", "RMS difference before", "RMS difference", "relative [%]"];
+  const head = ["measured curve", "values", "effective number", "correlation time [µs]", "unit", "RMS difference before", "RMS difference", "relative [%]"];
   return table(head, lines);
 }
 
