@@ -145,7 +145,10 @@ mod tests {
     fn short_logarithmic_axes_end_at_round_numbers_clear_of_the_data() {
         let range = |low, high| Axis::new("").log().fixed_range((low, high)).unwrap();
         let near = |a: (f64, f64), b: (f64, f64)| {
-            assert!((a.0 / b.0 - 1.0).abs() < 1e-12 && (a.1 / b.1 - 1.0).abs() < 1e-12, "{a:?}");
+            assert!(
+                (a.0 / b.0 - 1.0).abs() < 1e-12 && (a.1 / b.1 - 1.0).abs() < 1e-12,
+                "{a:?}"
+            );
         };
         near(range(40.0, 320.0), (20.0, 500.0));
         near(range(20.0, 500.0), (10.0, 1000.0));
