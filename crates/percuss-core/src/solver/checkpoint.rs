@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Error, Scenario, scenario::Given};
 
-/// First bytes of every checkpoint.
-const MAGIC: &[u8] = b"percuss checkpoint\n";
+/// First bytes of every checkpoint, by which a file is known as one.
+pub const MAGIC: &[u8] = b"percuss checkpoint\n";
 /// Raised whenever the content changes its form.
 const FORMAT: u32 = 9;
 
