@@ -11,6 +11,8 @@ use crate::{Figure, ReportError, png_file};
 
 /// Pixels of a PNG per SVG user unit.
 const PNG_SCALE: f32 = 2.0;
+/// What the drawings of charts begin with.
+const BACKGROUND: &str = r#"<rect width="100%" height="100%" fill="white" />"#;
 
 impl Figure {
     /// The figure as a PNG file, two pixels per SVG user unit.
@@ -18,12 +20,13 @@ impl Figure {
     /// # Errors
     /// [`ReportError::Figure`].
     pub fn png(&self) -> Result<Vec<u8>, ReportError> {
-        png_file::encode(&self.name, &self.pixels(PNG_SCALE)?)
+        png_file::encode(&self.name, self.pixels(PNG_SCALE)?)
     }
 
     /// The figure on white, at a number of pixels per SVG user unit.
     pub(crate) fn pixels(&self, scale: f32) -> Result<Pixmap, ReportError> {
-        let tree = tree(&self.name, &self.svg)?;
+        // The white behind all of it stands in the picture already.
+        let tree = tree(&self.name, &self.svg.replacen(BACKGROUND, "", 1))?;
         let size = tree
             .size()
             .to_int_size()

@@ -10,21 +10,18 @@ use crate::ReportError;
 /// Pixels per metre: 240 per inch, so that a figure is as wide as its PDF file.
 const PER_METRE: u32 = 9449;
 
-/// The PNG file of an opaque picture; an error names it.
+/// The PNG file of an opaque picture, in whose memory its colours are put side by side; an error names it.
 ///
 /// At the fastest level, with the filter `Up`, the figures of a run are half as large again, and the run takes a fifth less processor time.
-pub(crate) fn encode(name: &str, picture: &Pixmap) -> Result<Vec<u8>, ReportError> {
+pub(crate) fn encode(name: &str, picture: Pixmap) -> Result<Vec<u8>, ReportError> {
     let failure = |error: EncodingError| ReportError::Figure {
         name: name.to_owned(),
         reason: error.to_string(),
     };
-    let colors: Vec<u8> = picture
-        .pixels()
-        .iter()
-        .flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()])
-        .collect();
+    let (width, height) = (picture.width(), picture.height());
+    let colors = opaque(picture);
     let mut bytes = Vec::new();
-    let mut encoder = Encoder::new(&mut bytes, picture.width(), picture.height());
+    let mut encoder = Encoder::new(&mut bytes, width, height);
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
     encoder.set_deflate_compression(DeflateCompression::Level(1));
@@ -38,4 +35,16 @@ pub(crate) fn encode(name: &str, picture: &Pixmap) -> Result<Vec<u8>, ReportErro
     writer.write_image_data(&colors).map_err(failure)?;
     writer.finish().map_err(failure)?;
     Ok(bytes)
+}
+
+/// Red, green and blue of every pixel of an opaque picture.
+fn opaque(picture: Pixmap) -> Vec<u8> {
+    let mut bytes = picture.take();
+    let pixels = bytes.len() / 4;
+    for pixel in 0..pixels {
+        let (from, to) = (4 * pixel, 3 * pixel);
+        bytes.copy_within(from..from + 3, to);
+    }
+    bytes.truncate(3 * pixels);
+    bytes
 }

@@ -50,10 +50,16 @@ impl<L: Law> Grid<L> {
         for s in 0..segments {
             let (first, last) = self.span(s);
             let joined_behind = self.closed.get(s) == Some(&true);
-            for i in first..=last {
-                let joined = (i == first && joined_ahead) || (i == last && joined_behind);
-                if !joined {
-                    self.kick_alone(i, time_step);
+            if !joined_ahead && (first < last || !joined_behind) {
+                self.kick_alone(first, time_step);
+            }
+            if first < last {
+                // Nothing holds the nodes in between.
+                for node in &mut self.nodes[first + 1..last] {
+                    kick(node, time_step);
+                }
+                if !joined_behind {
+                    self.kick_alone(last, time_step);
                 }
             }
             if joined_behind {

@@ -86,6 +86,7 @@ impl RodLaw {
         self.diameter(cell.axial_plastic.exp())
     }
 
+    #[inline(never)]
     fn flow(&self, cell: &mut RodCell, trial: f64, elapsed: f64) {
         let start = FlowState {
             pressure: trial / 3.0,
@@ -148,6 +149,7 @@ impl Law for RodLaw {
     ///
     /// The plastic work that belongs to a stress is that stress times half the plastic strain before it and half the one
     /// after it: with that, elastic, plastic and kinetic energy add up exactly for a constant step.
+    #[inline(always)]
     fn load(&self, cell: &mut RodCell, motion: Motion) {
         let step = 2.0 * (cell.length - motion.length) / (cell.length + motion.length);
         cell.length = motion.length;
@@ -175,8 +177,10 @@ impl Law for RodLaw {
     }
 
     fn finish(&self, cell: &mut RodCell, _: f64, shortening: f64) -> bool {
-        let force = cell.viscous_pressure * cell.volume / cell.length;
-        cell.viscous_work += force * shortening;
+        if cell.viscous_pressure != 0.0 {
+            let force = cell.viscous_pressure * cell.volume / cell.length;
+            cell.viscous_work += force * shortening;
+        }
         true
     }
 
@@ -185,6 +189,11 @@ impl Law for RodLaw {
         let stiffness = 1.0 + (cell.stress / self.modulus).max(0.0);
         let speed = self.wave_speed * (1.0 + 0.5 * (stiffness - 1.0));
         viscosity::stable_step(self.viscosity, length, speed, approach)
+    }
+
+    fn allows(&self, cell: &RodCell, length: f64, step: f64) -> bool {
+        let stiffness = self.modulus + 0.5 * cell.stress.max(0.0);
+        self.viscosity.is_none() && length * self.modulus > step * self.wave_speed * stiffness
     }
 
     fn stored(&self, cell: &RodCell) -> Stored {
