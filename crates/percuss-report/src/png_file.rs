@@ -5,15 +5,19 @@ use png::{
 };
 use resvg::tiny_skia::Pixmap;
 
-use crate::ReportError;
+use crate::{ReportError, figure::SpareMemory};
 
 /// Pixels per metre: 240 per inch, so that a figure is as wide as its PDF file.
 const PER_METRE: u32 = 9449;
 
-/// The PNG file of an opaque picture, in whose memory its colours are put side by side; an error names it.
+/// The PNG file of an opaque picture, in whose memory its colours are put side by side and which is spare afterwards; an error names it.
 ///
 /// At the fastest level, with the filter `Up`, the figures of a run are half as large again, and the run takes a fifth less processor time.
-pub(crate) fn encode(name: &str, picture: Pixmap) -> Result<Vec<u8>, ReportError> {
+pub(crate) fn encode(
+    name: &str,
+    picture: Pixmap,
+    spare: &SpareMemory,
+) -> Result<Vec<u8>, ReportError> {
     let failure = |error: EncodingError| ReportError::Figure {
         name: name.to_owned(),
         reason: error.to_string(),
@@ -34,6 +38,7 @@ pub(crate) fn encode(name: &str, picture: Pixmap) -> Result<Vec<u8>, ReportError
     let mut writer = encoder.write_header().map_err(failure)?;
     writer.write_image_data(&colors).map_err(failure)?;
     writer.finish().map_err(failure)?;
+    spare.give(colors);
     Ok(bytes)
 }
 
@@ -43,7 +48,14 @@ fn opaque(picture: Pixmap) -> Vec<u8> {
     let pixels = bytes.len() / 4;
     for pixel in 0..pixels {
         let (from, to) = (4 * pixel, 3 * pixel);
-        bytes.copy_within(from..from + 3, to);
+        // The fourth of them is overwritten by the next pixel.
+        let four = [
+            bytes[from],
+            bytes[from + 1],
+            bytes[from + 2],
+            bytes[from + 3],
+        ];
+        bytes[to..to + 4].copy_from_slice(&four);
     }
     bytes.truncate(3 * pixels);
     bytes

@@ -53,6 +53,13 @@ pub(in crate::fdm) trait Law: fmt::Debug {
     /// Brings the stress to the middle of the step.
     fn load(&self, cell: &mut Self::Cell, motion: Motion);
 
+    /// Does it with the cells of these numbers.
+    fn load_all(&self, cells: &mut [Self::Cell], moving: &[(usize, Motion)]) {
+        for (i, motion) in moving {
+            self.load(&mut cells[*i], *motion);
+        }
+    }
+
     /// Axial force of a loaded cell, viscosity included [N].
     fn force(&self, cell: &Self::Cell) -> f64;
 

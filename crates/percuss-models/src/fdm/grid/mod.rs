@@ -87,6 +87,8 @@ pub(in crate::fdm) struct Grid<L: Law> {
     pub(in crate::fdm) stable_step: f64,
     /// Cell that sets it, where the next search begins.
     tightest: usize,
+    /// Cells of a segment that a step changes; in a step only.
+    moving: Vec<(usize, Motion)>,
     /// Force between projectile and target in the last step [N].
     pub(in crate::fdm) contact_force: f64,
     /// Force on what holds the last node in the last step [N].
@@ -128,6 +130,7 @@ impl<L: Law> Grid<L> {
             time_step: 0.0,
             stable_step: f64::INFINITY,
             tightest: 0,
+            moving: Vec::new(),
             contact_force: 0.0,
             back_force: 0.0,
             tip_pressure: 0.0,
@@ -256,9 +259,10 @@ impl<L: Law> Grid<L> {
         for (s, segment) in self.segments.iter().enumerate() {
             let law = &self.bodies[segment.body];
             let nodes = &mut self.nodes[segment.cells.start + s..=segment.cells.end + s];
-            let mut behind = 0.0;
-            for (i, cell) in self.cells[segment.cells.clone()].iter_mut().enumerate() {
-                let (a, b) = (&nodes[i], &nodes[i + 1]);
+            let cells = &mut self.cells[segment.cells.clone()];
+            self.moving.clear();
+            for (i, (cell, ends)) in cells.iter().zip(nodes.windows(2)).enumerate() {
+                let (a, b) = (&ends[0], &ends[1]);
                 let approach = a.velocity - b.velocity;
                 let moves = a.velocity != 0.0 || b.velocity != 0.0;
                 if moves || !law.is_settled(cell) {
@@ -266,21 +270,23 @@ impl<L: Law> Grid<L> {
                     if length.is_nan() || length <= 0.0 {
                         return Err(self.inverted(segment.cells.start + i));
                     }
-                    law.load(
-                        cell,
-                        Motion {
-                            length,
-                            approach,
-                            since_load,
-                            time_step,
-                        },
-                    );
+                    let motion = Motion {
+                        length,
+                        approach,
+                        since_load,
+                        time_step,
+                    };
+                    self.moving.push((i, motion));
                 }
+            }
+            law.load_all(cells, &self.moving);
+            let mut behind = 0.0;
+            for (node, cell) in nodes.iter_mut().zip(&*cells) {
                 let force = law.force(cell);
-                nodes[i].force = behind - force;
+                node.force = behind - force;
                 behind = force;
             }
-            nodes[nodes.len() - 1].force = behind;
+            nodes[cells.len()].force = behind;
         }
         Ok(())
     }
