@@ -46,17 +46,46 @@ pub(crate) fn encode(
 fn opaque(picture: Pixmap) -> Vec<u8> {
     let mut bytes = picture.take();
     let pixels = bytes.len() / 4;
-    for pixel in 0..pixels {
-        let (from, to) = (4 * pixel, 3 * pixel);
-        // The fourth of them is overwritten by the next pixel.
-        let four = [
-            bytes[from],
-            bytes[from + 1],
-            bytes[from + 2],
-            bytes[from + 3],
-        ];
-        bytes[to..to + 4].copy_from_slice(&four);
+    let mut done = 0;
+    // Four pixels at a time, with four bytes behind them that the next ones overwrite.
+    while let Some(four) = bytes[4 * done..].first_chunk() {
+        let four = u128::from_le_bytes(*four);
+        let color = |place: u32| (four >> (8 * place)) & (0xff_ffff << (24 * place));
+        let colors = color(0) | color(1) | color(2) | color(3);
+        if let Some(place) = bytes[3 * done..].first_chunk_mut() {
+            *place = colors.to_le_bytes();
+        }
+        done += 4;
+    }
+    for pixel in done..pixels {
+        for channel in 0..3 {
+            bytes[3 * pixel + channel] = bytes[4 * pixel + channel];
+        }
     }
     bytes.truncate(3 * pixels);
     bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use resvg::tiny_skia::{Color, Pixmap};
+
+    use super::opaque;
+
+    #[test]
+    fn colours_stand_side_by_side() {
+        for width in 1..20 {
+            let mut picture = Pixmap::new(width, 1).unwrap();
+            picture.fill(Color::WHITE);
+            let bytes = picture.data_mut().chunks_exact_mut(4).enumerate();
+            for (i, pixel) in bytes {
+                let i = u8::try_from(i).unwrap();
+                pixel[..3].copy_from_slice(&[i, 100 + i, 200 + i]);
+            }
+            let colors: Vec<u8> = (0..u8::try_from(width).unwrap())
+                .flat_map(|i| [i, 100 + i, 200 + i])
+                .collect();
+            assert_eq!(opaque(picture), colors);
+        }
+    }
 }

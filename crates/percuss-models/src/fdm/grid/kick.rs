@@ -24,17 +24,13 @@ pub(super) fn dry_friction(before: f64, change: f64, limit: f64) -> (f64, f64) {
     if limit == 0.0 {
         return (free, 0.0);
     }
-    let after = if free.abs() <= limit {
-        0.0
-    } else {
-        free - limit.copysign(free)
-    };
+    // Without branches: which way they go changes from node to node.
+    let slowed = free - limit.copysign(free);
+    let after = if free.abs() <= limit { 0.0 } else { slowed };
     let taken = free - after;
-    if taken * (before + after) < 0.0 {
-        (free, 0.0)
-    } else {
-        (after, taken)
-    }
+    let pushes = taken * (before + after) < 0.0;
+    let velocity = if pushes { free } else { after };
+    (velocity, if pushes { 0.0 } else { taken })
 }
 
 impl<L: Law> Grid<L> {
