@@ -10,7 +10,7 @@ use crate::{ReportError, figure::SpareMemory};
 /// Pixels per metre: 240 per inch, so that a figure is as wide as its PDF file.
 const PER_METRE: u32 = 9449;
 
-/// The PNG file of an opaque picture, in whose memory its colours are put side by side and which is spare afterwards; an error names it.
+/// The PNG file of an opaque picture; an error names it. The memory of the picture goes to `spare`.
 ///
 /// At the fastest level, with the filter `Up`, the figures of a run are half as large again, and the run takes a fifth less processor time.
 pub(crate) fn encode(

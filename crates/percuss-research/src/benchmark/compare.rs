@@ -60,7 +60,7 @@ pub fn compare(
 }
 
 impl Compared<'_> {
-    /// What a depth [m] by a candidate is worth.
+    /// The depth of a candidate [m] beside the reference.
     fn record(&self, candidate: &Candidate, depth: f64) -> ErrorRecord {
         let [strength_ratio, density_ratio] = self.ratios;
         ErrorRecord {

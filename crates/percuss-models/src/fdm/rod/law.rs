@@ -204,7 +204,7 @@ impl RodLaw {
         let mut trial = LaneTrial::<Lanes>::default();
         let mut places = Lanes::all(0.0);
         for (l, own) in flowing.iter().enumerate() {
-            // Lanes without a cell compute what the first one does, for nobody.
+            // A lane without a cell repeats the first one; its result is not used.
             let Some(FlowingCell { cell, motion, .. }) = own.as_ref().or(flowing[0].as_ref())
             else {
                 continue;
