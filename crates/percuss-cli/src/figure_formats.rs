@@ -88,7 +88,7 @@ mod tests {
 
     #[test]
     fn widths_are_those_of_columns_and_pages() {
-        assert_eq!(figure_width("8.8 cm").unwrap().si(), 0.088);
+        assert!((figure_width("8.8 cm").unwrap().si() - 0.088).abs() < 1e-12);
         assert!(figure_width("88").unwrap_err().contains("unit"));
         let wide = figure_width("2 m").unwrap_err();
         assert_eq!(wide, "2000 mm is out of range: allowed are 60 mm to 182 mm");
