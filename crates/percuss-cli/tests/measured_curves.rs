@@ -202,7 +202,11 @@ fn a_wrong_table_is_refused_with_its_place() {
     }
     for (tables, code, message) in [
         (OF_GAUGE, 4, "cannot read `rod.csv`"),
-        ("[[measured_curves]]\n", 2, "the measured curve has no values"),
+        (
+            "[[measured_curves]]\n",
+            2,
+            "the measured curve has no values",
+        ),
         (
             "[[measured_curves]]\ncsv = 'time_s,strain'\ngauge = 'bar'\n",
             2,
