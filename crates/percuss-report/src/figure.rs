@@ -98,6 +98,7 @@ impl Figure {
     }
 
     /// Content of a file.
+    #[cfg_attr(not(feature = "png"), allow(unused_variables))]
     fn file(
         &self,
         format: FigureFormat,
