@@ -173,6 +173,7 @@ impl Command {
             Self::Run(command) => command.figures.figure_width,
             Self::Compare(command) => command.figures.figure_width,
             Self::Limit(command) => command.figures.figure_width,
+            #[cfg(feature = "parquet")]
             Self::Sweep(command) => command.figure_width(),
             Self::Calibrate(command) => command.figures.figure_width,
             Self::Uncertainty(command) => command.figures.figure_width,
