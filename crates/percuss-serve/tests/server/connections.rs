@@ -86,7 +86,6 @@ fn stay(served: &Served, count: usize, status: u32) -> Vec<TcpStream> {
     (0..count).map(connect).collect()
 }
 
-/// Each of them asks again before its place could time out.
 #[test]
 fn clients_that_stay_give_way() {
     let served = Served::new(Options::default());
