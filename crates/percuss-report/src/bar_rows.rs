@@ -187,22 +187,24 @@ impl BarRows {
         })
     }
 
-    /// Part of the width that texts take at the left and at the right of the bars.
+    /// Space that texts take at the left and at the right of the bars, in parts of the space of the bars.
     fn space_for_texts(&self) -> (f64, f64) {
         // What names, legend and margins leave of the canvas, near enough [px].
         let (plot_width, most) = match figure_width::is_narrow() {
-            true => (figure_width::pixels() - NARROW_SIDES, 0.42),
+            true => (figure_width::pixels() - NARROW_SIDES, 0.4),
             false => (0.37 * figure_width::pixels(), 0.3),
         };
-        let bars = || self.rows.iter().flat_map(|row| &row.1);
+        let all = || self.rows.iter().flat_map(|row| &row.1);
         let longest = |left: bool| {
-            let texts = bars().filter(|bar| (bar.ends.1 < bar.ends.0) == left);
+            let texts = all().filter(|bar| (bar.ends.1 < bar.ends.0) == left);
             texts.map(|bar| bar.text.chars().count()).max().unwrap_or(0) as f64
         };
         let part = |chars: f64| match chars {
             0.0 => 0.03,
             chars => ((chars * TEXT_WIDTH + 2.0 * TEXT_GAP) / plot_width).min(most),
         };
-        (part(longest(true)), part(longest(false)))
+        let (left, right) = (part(longest(true)), part(longest(false)));
+        let bars = 1.0 - left - right;
+        (left / bars, right / bars)
     }
 }
