@@ -39,6 +39,7 @@ pub use failure::Failure;
 pub use memory::limit_memory;
 pub use response::{ProgressCallback, Response, ResponseData, VirtualFiles};
 pub use run_output::RunOutput;
+pub use workers::start as start_threads;
 
 /// Definition of the command line, for reference pages.
 pub fn command() -> clap::Command {
@@ -53,7 +54,8 @@ pub fn main(words: impl IntoIterator<Item = OsString>) -> ExitCode {
             return answer_of_parser(&error);
         }
     };
-    match limit_memory().and_then(|()| cli.command.run()) {
+    let ready = limit_memory().and_then(|()| start_threads());
+    match ready.and_then(|()| cli.command.run()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             failure.report();

@@ -147,10 +147,9 @@ impl RunFolder {
         Ok(())
     }
 
-    /// Writes a file.
+    /// Writes a file, or leaves the former one of this name as it is.
     pub fn put(&mut self, name: &str, content: &[u8]) -> Result<(), Failure> {
-        let path = self.path.join(name);
-        fs::write(&path, content).map_err(Failure::write(&path))?;
+        let path = percuss_report::replace_file::replace_file(&self.path, name, content)?;
         self.written.push(path);
         Ok(())
     }

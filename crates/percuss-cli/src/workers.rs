@@ -1,15 +1,62 @@
 //! Thread pool, and the flag that stops it.
 
 use std::{
+    error::Error,
     ops::ControlFlow,
     process,
     sync::{
-        Arc,
+        Arc, OnceLock,
         atomic::{AtomicBool, Ordering},
     },
+    thread,
 };
 
+use percuss::units::shorten;
+
 use crate::failure::Failure;
+
+/// Most threads: more take memory and wait for each other.
+pub const MOST_THREADS: u16 = 1024;
+/// Variable of the environment with the number of threads.
+const VARIABLE: &str = "RAYON_NUM_THREADS";
+
+/// Starts the threads that all commands share.
+///
+/// # Errors
+/// [`Failure::Usage`] where the system gives no more threads, or the environment asks for too many.
+pub fn start() -> Result<(), Failure> {
+    if let Some(value) = std::env::var_os(VARIABLE) {
+        let value = value.to_string_lossy();
+        // Not a number, and 0, stand for one per core.
+        let wanted: Option<u128> = value.parse().ok();
+        if wanted.is_some_and(|wanted| wanted > MOST_THREADS.into()) {
+            return Err(Failure::Usage {
+                message: format!("{VARIABLE} = `{}` is too much", shorten(&value)),
+                help: format!("allowed: 1 to {MOST_THREADS}, and 0 for one per core"),
+            });
+        }
+    }
+    static STARTED: OnceLock<()> = OnceLock::new();
+    if STARTED.get().is_some() {
+        return Ok(());
+    }
+    let pool = rayon::ThreadPoolBuilder::new().build_global();
+    // A caller of the library may have started them before: that error has no source.
+    if let Err(error) = pool
+        && Error::source(&error).is_some()
+    {
+        return Err(refused(&error));
+    }
+    // Commands start some more, one at a time.
+    let one_more = thread::Builder::new().spawn(|| ());
+    match one_more.map(thread::JoinHandle::join) {
+        Err(error) => Err(refused(&error)),
+        Ok(_) => {
+            STARTED.get_or_init(|| ());
+            Ok(())
+        }
+    }
+}
 
 /// Thread pool with this number of threads, by default one per core.
 pub fn pool(threads: Option<u16>) -> Result<rayon::ThreadPool, Failure> {
@@ -17,10 +64,16 @@ pub fn pool(threads: Option<u16>) -> Result<rayon::ThreadPool, Failure> {
     if let Some(threads) = threads {
         pool = pool.num_threads(usize::from(threads));
     }
-    pool.build().map_err(|error| Failure::Usage {
+    pool.build().map_err(|error| refused(&error))
+}
+
+fn refused(error: &dyn Error) -> Failure {
+    Failure::Usage {
         message: format!("cannot start the threads: {error}"),
-        help: "give a smaller number with --threads".to_owned(),
-    })
+        help: format!(
+            "set {VARIABLE} or `--threads` to a smaller number, or allow more processes and memory (`ulimit -u`, `ulimit -v`)"
+        ),
+    }
 }
 
 /// Flag that becomes true on the first Ctrl-C or termination request; the second one ends the program at once.

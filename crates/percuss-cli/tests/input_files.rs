@@ -99,6 +99,57 @@ fn a_pipe_is_no_file_to_write_materials_to() {
     }
 }
 
+/// A result takes the place of what has its name, whole: a pipe, a link, or an older result that a failure leaves as it is.
+#[test]
+fn results_take_the_place_of_pipes_and_links() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::create_dir(at("out")).unwrap();
+    std::fs::write(at("kept"), "kept").unwrap();
+    for (arguments, file) in [
+        (&["run", "scenario.toml", "--fast"][..], "result.json"),
+        (&["run", "scenario.toml", "--fast"], "case-as-run.toml"),
+        (&["compare", "scenario.toml", "--fast"], "compare.json"),
+        (
+            &["converge", "scenario.toml", "--levels", "3"],
+            "convergence.json",
+        ),
+    ] {
+        let path = at("out").join(file);
+        for make in [make_pipe as fn(&Path), |path| {
+            symlink("../kept", path).unwrap()
+        }] {
+            let _ = std::fs::remove_file(&path);
+            make(&path);
+            let (code, said) = ended(folder.path(), &[arguments, &["--out", "out"]].concat());
+            assert_eq!(code, 0, "{arguments:?}: {said}");
+            assert!(path.symlink_metadata().unwrap().is_file(), "{path:?}");
+            assert!(std::fs::read_to_string(&path).unwrap().len() > 100);
+        }
+    }
+    assert_eq!(std::fs::read_to_string(at("kept")).unwrap(), "kept");
+}
+
+/// Files may have so few bytes that the new result does not fit: the former one stays.
+#[test]
+fn a_result_that_cannot_be_written_leaves_the_former_one() {
+    let folder = folder();
+    let run = ["run", "scenario.toml", "--fast", "--quiet", "--out", "out"];
+    assert_eq!(ended(folder.path(), &run).0, 0);
+    let result = folder.path().join("out/result.json");
+    let former = std::fs::read_to_string(&result).unwrap();
+    let script = "trap '' XFSZ; ulimit -f 1; exec \"$0\" \"$@\"";
+    let limited = Command::new("bash")
+        .args(["-c", script, env!("CARGO_BIN_EXE_percuss")])
+        .args(run)
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&limited.stderr).into_owned();
+    assert_eq!(limited.status.code(), Some(4), "{said}");
+    assert_eq!(std::fs::read_to_string(&result).unwrap(), former);
+}
+
 /// The same of files that other files name.
 #[test]
 fn pipes_are_refused_in_the_files_that_name_them() {

@@ -12,7 +12,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use percuss_cli::Failure;
+use percuss_cli::{Failure, start_threads};
 use pyo3::prelude::*;
 
 use crate::{errors::raise, fork::with_threads};
@@ -100,6 +100,7 @@ pub fn run_monitored<T: Send>(
 ) -> PyResult<T> {
     let progress_state = SharedProgress::default();
     let mut monitor = PythonMonitor::new(progress);
+    start_threads().map_err(|failure| raise(py, failure))?;
     let result = py.detach(|| {
         thread::scope(|scope| {
             let (done, ended) = mpsc::channel::<()>();

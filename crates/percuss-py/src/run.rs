@@ -13,7 +13,7 @@ use percuss::{
     outcome::RunResult as Computed,
     summary::CaseResults,
 };
-use percuss_cli::{Failure, RunOutput};
+use percuss_cli::{Failure, RunOutput, start_threads};
 use pyo3::{exceptions::PyValueError, prelude::*};
 
 use crate::{
@@ -90,6 +90,7 @@ pub fn run(
         solver_time = start.elapsed();
         result
     };
+    start_threads().map_err(|failure| raise(py, failure))?;
     let result = py.detach(|| with_threads(&mut compute));
     if let Some(error) = laws.take_error() {
         return Err(error);

@@ -13,7 +13,7 @@ use percuss::{
     document::read_text,
     sweep::{BatchKernel, Kernel, Stopped, Sweep as Loaded, SweepRow, SweepRun},
 };
-use percuss_cli::Failure;
+use percuss_cli::{Failure, start_threads};
 use percuss_report::sweep::{Block, SweepFolder as Folder};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyBytes};
 
@@ -82,6 +82,7 @@ impl Sweep {
         }
         let stop = AtomicBool::new(false);
         let kernel = BatchKernel::new(self.sweep.model);
+        start_threads().map_err(|failure| raise(py, failure))?;
         let computed =
             py.detach(|| with_threads(|| Block::compute(&self.sweep, &kernel, block, &stop)));
         match computed.map_err(|error| raise(py, error))? {

@@ -1,6 +1,13 @@
 //! The server: address, routes and connections.
 
-use std::{future, io, net::SocketAddr, pin::pin, sync::Arc, time::Duration};
+use std::{
+    future, io,
+    net::SocketAddr,
+    pin::pin,
+    sync::{Arc, Mutex, PoisonError, mpsc},
+    thread,
+    time::Duration,
+};
 
 use axum::{
     Extension, Router,
@@ -75,6 +82,9 @@ impl FromRef<Shared> for Arc<Validation> {
     }
 }
 
+/// Threads that answer requests; computations have others.
+const WORKER_THREADS: usize = 2;
+
 impl Server {
     /// Checks the options, computes the first case and binds the address.
     ///
@@ -83,8 +93,9 @@ impl Server {
     pub fn bind(options: Options) -> Result<Self, ServeError> {
         options.check()?;
         let index = first_page(&options)?;
+        check_threads().map_err(ServeError::Start)?;
         let runtime = Builder::new_multi_thread()
-            .worker_threads(2)
+            .worker_threads(WORKER_THREADS)
             .enable_all()
             .build()
             .map_err(ServeError::Start)?;
@@ -124,6 +135,27 @@ impl Server {
         } = self;
         runtime.block_on(accept(listener, routes))
     }
+}
+
+/// Starts as many threads as the server does at first, one after the other: the runtime panics where the system gives none.
+fn check_threads() -> io::Result<()> {
+    let (sender, receiver) = mpsc::channel::<()>();
+    let receiver = Arc::new(Mutex::new(receiver));
+    let mut threads = Vec::new();
+    for _ in 0..1 + WORKER_THREADS {
+        let receiver = Arc::clone(&receiver);
+        let wait = move || {
+            let receiver = receiver.lock().unwrap_or_else(PoisonError::into_inner);
+            // Until the sender is dropped.
+            let _ = receiver.recv();
+        };
+        threads.push(thread::Builder::new().spawn(wait)?);
+    }
+    drop(sender);
+    for thread in threads {
+        let _ = thread.join();
+    }
+    Ok(())
 }
 
 /// Page with the results of its first case.

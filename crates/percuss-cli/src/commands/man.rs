@@ -1,8 +1,9 @@
 //! `percuss man`: manual pages.
 
-use std::{fs, path::PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, Command};
+use percuss_report::replace_file::replace_file;
 
 use crate::{failure::Failure, output, run_folder::make_folder};
 
@@ -37,8 +38,8 @@ impl Man {
         let mut written = String::from("wrote\n");
         for command in with_subcommands(&program) {
             let man = clap_mangen::Man::new(command.clone());
-            let path = folder.join(man.get_filename());
-            fs::write(&path, page(&command)?).map_err(Failure::write(&path))?;
+            let content = page(&command)?;
+            let path = replace_file(folder, &man.get_filename(), content.as_bytes())?;
             written += &format!("  {}\n", path.display());
         }
         output::print(&written)

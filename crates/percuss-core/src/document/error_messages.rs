@@ -268,6 +268,10 @@ fn syntax(message: &str, source: &str) -> Option<Reworded> {
             "keys or values are nested too deeply",
             "a case has a handful of levels",
         ),
+        "integer number overflowed" => says(
+            "the whole number is too large",
+            "write a number with a unit in quotes, such as \"230 m/s\"",
+        ),
         "key with no value, expected `=`" => {
             says("`=` is missing after the key", "write KEY = VALUE")
         }

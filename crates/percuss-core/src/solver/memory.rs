@@ -21,13 +21,13 @@ pub fn set_memory_limit(bytes: u64) {
     LIMIT.store(bytes, Ordering::Relaxed);
 }
 
-/// Reads a size such as `16 GiB`, `500 MiB` or a number of bytes.
+/// Reads a size with its unit, such as `16 GiB` or `500 MiB`.
 pub fn parse_size(text: &str) -> Option<u64> {
     let text = text.trim();
     let start = text.find(|c: char| c.is_ascii_alphabetic());
     let (number, unit) = text.split_at(start.unwrap_or(text.len()));
     let factor = match unit.trim() {
-        "" | "B" => 1.0,
+        "B" => 1.0,
         "KiB" => 1024.0,
         "MiB" => 1_048_576.0,
         "GiB" => 1_073_741_824.0,
@@ -69,12 +69,12 @@ mod tests {
             ("16 GiB", 16 << 30),
             ("1.5GiB", 3 << 29),
             ("500 MiB", 500 << 20),
-            (" 4096 ", 4096),
+            (" 4096 B ", 4096),
         ] {
             assert_eq!(parse_size(text), Some(bytes), "{text}");
         }
         for text in [
-            "", "GiB", "0 GiB", "-1 GiB", "16 GB", "inf", "nan GiB", "1e9 TiB",
+            "", "8", "GiB", "0 GiB", "-1 GiB", "16 GB", "inf", "nan GiB", "1e9 TiB",
         ] {
             assert_eq!(parse_size(text), None, "{text}");
         }

@@ -16,6 +16,8 @@ const LONG_WIDTH: usize = 20;
 pub(super) struct Deck<'a> {
     file: &'a str,
     text: &'a str,
+    /// Bytes of the text at which its lines begin.
+    lines: Vec<usize>,
     pub(super) keywords: Vec<Keyword<'a>>,
 }
 
@@ -51,6 +53,7 @@ impl<'a> Deck<'a> {
         let mut deck = Self {
             file,
             text,
+            lines: Vec::new(),
             keywords: Vec::new(),
         };
         let mut usual_width = WIDTH;
@@ -60,6 +63,7 @@ impl<'a> Deck<'a> {
                 text: whole.trim_end(),
                 start,
             };
+            deck.lines.push(start);
             start += whole.len();
             match line.text.as_bytes().first() {
                 Some(b'$') => {}
@@ -96,8 +100,7 @@ impl<'a> Deck<'a> {
 
     /// Number of the line of a place, counted from 1.
     pub(super) fn line(&self, span: &Range<usize>) -> usize {
-        let before = self.text.as_bytes().iter().take(span.start);
-        1 + before.filter(|&&byte| byte == b'\n').count()
+        self.lines.partition_point(|start| *start <= span.start)
     }
 }
 

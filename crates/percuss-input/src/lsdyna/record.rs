@@ -1,5 +1,7 @@
 //! Records from the cards of a deck.
 
+use std::collections::{HashMap, HashSet};
+
 use super::{
     Imported, UnitSystem,
     deck::{Deck, Field, Keyword},
@@ -12,6 +14,9 @@ use crate::{
     material::{Material, MaterialTable},
 };
 
+/// Most kinds of keywords that are named as left out.
+const MOST_KINDS: usize = 100;
+
 /// The two numbers of a part that belong together: of its material and of its equation of state.
 type Pair = (f64, f64);
 
@@ -19,6 +24,7 @@ type Pair = (f64, f64);
 pub(super) fn read(deck: &Deck<'_>, units: UnitSystem) -> Result<Imported, Error> {
     let mut imported = Imported::default();
     let (mut found, mut equations, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
+    let mut unread = Unread::default();
     for keyword in &deck.keywords {
         let mut card = Card {
             deck,
@@ -38,44 +44,41 @@ pub(super) fn read(deck: &Deck<'_>, units: UnitSystem) -> Result<Imported, Error
             }
             "PART" => pairs.extend(parts(deck, keyword)?),
             name if name.starts_with("MAT_") || name.starts_with("EOS_") => {
-                card.warnings.push(format!(
-                    "line {}: *{name} is not read",
-                    deck.line(&keyword.span)
-                ));
+                unread.add(name, "is not read", deck.line(&keyword.span));
             }
-            "INCLUDE" => card.warnings.push(format!(
-                "line {}: *INCLUDE is not followed: give the file itself",
-                deck.line(&keyword.span)
-            )),
+            name @ "INCLUDE" => {
+                let why = "is not followed: give the file itself";
+                unread.add(name, why, deck.line(&keyword.span));
+            }
             _ => {}
         }
         imported.warnings.append(&mut card.warnings);
     }
+    imported.warnings.extend(unread.warnings());
     if found.is_empty() {
         let message = "the deck has no material that can be read".to_owned();
         let help = "*MAT_JOHNSON_COOK and *MAT_SIMPLIFIED_JOHNSON_COOK are read".to_owned();
         return Err(deck.error(&(0..0), message, help));
     }
-    let mut joined = vec![false; equations.len()];
+    let mut joins = Joins::new(&equations, &pairs);
+    let mut ids = Ids::default();
     for (keyword, Found { number, material }) in found {
-        let all = equations_of(number, &equations, &pairs);
-        if all.len() > 1 {
+        let (first, count) = joins.equations_of(number);
+        if count > 1 {
             imported.warnings.push(format!(
-                "line {}: parts join the material {number} with {} equations of state, and the first is taken",
+                "line {}: parts join the material {number} with {count} equations of state, and the first is taken",
                 deck.line(&keyword.span),
-                all.len()
             ));
         }
-        let first = all.first().copied();
-        all.into_iter().for_each(|index| joined[index] = true);
         let material = Material {
             equation_of_state: first.map(|index| equations[index].equation.clone()),
             ..material
         };
         check(deck, keyword, units, &material)?;
-        insert(&mut imported.records, number, material);
+        let id = ids.of(&imported.records, number, &material);
+        imported.records.insert(id, material);
     }
-    for (card, _) in equations.iter().zip(joined).filter(|(_, joined)| !joined) {
+    for card in equations.iter().filter(|card| !joins.has_joined(card)) {
         imported.warnings.push(format!(
             "line {}: the equation of state {} is left out: no material that was read has it",
             card.line, card.number
@@ -96,16 +99,95 @@ fn parts(deck: &Deck<'_>, keyword: &Keyword<'_>) -> Result<Vec<Pair>, Error> {
     Ok(pairs)
 }
 
-/// Places of the equations of state that parts join with a material; without parts, of that of the same number.
-fn equations_of(material: f64, equations: &[GruneisenCard], pairs: &[Pair]) -> Vec<usize> {
-    let is_joined = |equation: f64| match pairs.is_empty() {
-        true => equation == material,
-        false => pairs.contains(&(material, equation)),
-    };
-    let all = equations.iter().enumerate();
-    all.filter(|(_, card)| is_joined(card.number))
-        .map(|(index, _)| index)
-        .collect()
+/// Keywords that are left out, a warning for each kind: its first line, and how often it comes.
+#[derive(Default)]
+struct Unread<'a>(Vec<(&'a str, &'static str, usize, usize)>);
+
+impl<'a> Unread<'a> {
+    fn add(&mut self, name: &'a str, why: &'static str, line: usize) {
+        let is_full = self.0.len() == MOST_KINDS;
+        match self.0.iter_mut().find(|kind| kind.0 == name) {
+            Some(kind) => kind.3 += 1,
+            // A deck of ever new keywords is no deck.
+            None if is_full => {}
+            None => self.0.push((name, why, line, 0)),
+        }
+    }
+
+    fn warnings(self) -> impl Iterator<Item = String> {
+        let kinds = self.0.into_iter();
+        kinds.map(|(name, why, line, more)| match more {
+            0 => format!("line {line}: *{name} {why}"),
+            more => format!("line {line} and {more} more: *{name} {why}"),
+        })
+    }
+}
+
+/// Equations of state by the materials that they belong to.
+struct Joins {
+    /// Places of the equations of a number.
+    places: HashMap<u64, Vec<usize>>,
+    /// Numbers of the equations of a material; `None` in a deck without parts.
+    parts: Option<HashMap<u64, HashSet<u64>>>,
+    /// Place of the first equation of a material that was asked for, and how many it has.
+    known: HashMap<u64, (Option<usize>, usize)>,
+    /// Numbers of the equations that a material has.
+    joined: HashSet<u64>,
+}
+
+impl Joins {
+    fn new(equations: &[GruneisenCard], pairs: &[Pair]) -> Self {
+        let mut places: HashMap<u64, Vec<usize>> = HashMap::new();
+        for (place, card) in equations.iter().enumerate() {
+            places.entry(key(card.number)).or_default().push(place);
+        }
+        let mut parts: HashMap<u64, HashSet<u64>> = HashMap::new();
+        for (material, equation) in pairs {
+            let of_material = parts.entry(key(*material)).or_default();
+            of_material.insert(key(*equation));
+        }
+        Self {
+            places,
+            parts: (!pairs.is_empty()).then_some(parts),
+            known: HashMap::new(),
+            joined: HashSet::new(),
+        }
+    }
+
+    /// Place of the first equation of state that parts join with a material, and how many there are; without parts, of those of the same
+    /// number.
+    fn equations_of(&mut self, material: f64) -> (Option<usize>, usize) {
+        let material = key(material);
+        if let Some(known) = self.known.get(&material) {
+            return *known;
+        }
+        let numbers: Vec<u64> = match &self.parts {
+            None => vec![material],
+            Some(parts) => parts
+                .get(&material)
+                .into_iter()
+                .flatten()
+                .copied()
+                .collect(),
+        };
+        let places = || numbers.iter().filter_map(|number| self.places.get(number));
+        let found = (
+            places().filter_map(|all| all.first()).min().copied(),
+            places().map(Vec::len).sum(),
+        );
+        self.joined.extend(numbers);
+        self.known.insert(material, found);
+        found
+    }
+
+    fn has_joined(&self, card: &GruneisenCard) -> bool {
+        self.joined.contains(&key(card.number))
+    }
+}
+
+/// What stands for a number of a card: equal numbers have equal bits, but for the sign of zero.
+fn key(number: f64) -> u64 {
+    (number + 0.0).to_bits()
 }
 
 /// Fails where no material has the values.
@@ -130,20 +212,26 @@ fn check(
     }
 }
 
-/// Adds a record under an id of its title.
-fn insert(records: &mut MaterialTable, number: f64, material: Material) {
-    let words = material.name.to_lowercase();
-    let words = words.split(|c: char| !c.is_ascii_alphanumeric());
-    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
-    let mut id = words.join("-");
-    if id.is_empty() || records.contains_key(&id) {
-        id = format!("{id}-{number}").trim_matches('-').to_owned();
+/// Ids of records by their titles.
+#[derive(Default)]
+struct Ids(HashMap<String, usize>);
+
+impl Ids {
+    /// An id that no record has.
+    fn of(&mut self, records: &MaterialTable, number: f64, material: &Material) -> String {
+        let words = material.name.to_lowercase();
+        let words = words.split(|c: char| !c.is_ascii_alphanumeric());
+        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+        let mut id = words.join("-");
+        if id.is_empty() || records.contains_key(&id) {
+            id = format!("{id}-{number}").trim_matches('-').to_owned();
+        }
+        let first = id.clone();
+        let copy = self.0.entry(first.clone()).or_insert(1);
+        while records.contains_key(&id) {
+            *copy += 1;
+            id = format!("{first}-{copy}");
+        }
+        id
     }
-    let mut copy = 2;
-    let first = id.clone();
-    while records.contains_key(&id) {
-        id = format!("{first}-{copy}");
-        copy += 1;
-    }
-    records.insert(id, material);
 }

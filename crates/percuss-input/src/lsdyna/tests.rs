@@ -276,3 +276,28 @@ fn written_cards_are_read_back() {
     }
     assert!(written > 100, "{written}");
 }
+
+/// The time that a deck takes grows with its length alone: a quarter of a million cards of every kind, and of one number.
+#[test]
+fn decks_of_many_cards_are_read_at_once() {
+    let many = |card: &str| card.repeat(50_000);
+    let johnson_cook = "*MAT_JOHNSON_COOK_TITLE\nsteel\n1,7.83e-6,80.,208.,0.3\n0.792,0.51,0.26,0.014,1.03,1793.,298.,0.001\n477.\n";
+    let gruneisen = "*EOS_GRUNEISEN\n1,4569.,1.49,0.,0.,2.17,0.46,0.\n0.\n";
+    let part = "*PART\nplate\n1,1,1,1\n";
+    let deck = [
+        many("*MAT_ELASTIC\n"),
+        many("*INCLUDE\nother.k\n"),
+        many(johnson_cook),
+        many(gruneisen),
+        many(part),
+    ]
+    .concat();
+    // Without the deck, which an error holds.
+    let found = read("deck.k", &deck, UnitSystem::named("mm-kg-ms").unwrap())
+        .map_err(|error| error.message_and_help())
+        .unwrap();
+    assert_eq!(found.records.len(), 50_000);
+    assert!(found.records.contains_key("steel-1-50"));
+    let said = &found.warnings;
+    assert!(said.contains(&"line 1 and 49999 more: *MAT_ELASTIC is not read".to_owned()));
+}

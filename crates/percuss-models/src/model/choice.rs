@@ -1,6 +1,8 @@
 //! Default model of a run: the chain where it applies, otherwise the model that a comparison recommends.
 
-use super::{Control, MODELS, Model, applicability_in, fast_models, model, recommend, run_in};
+use super::{
+    Control, MODELS, Model, applicability_in, fast_models, memory, model, recommend, run_in,
+};
 use crate::{Error, Scenario, outcome::RunResult, regime::Regime};
 
 /// Name of the model of a run that names none.
@@ -57,7 +59,7 @@ pub fn choose(name: Option<&str>, scenario: &Scenario) -> Result<ChosenModel, Er
 /// the first quick one that gives a result.
 ///
 /// # Errors
-/// [`Error::NoModelApplies`] with the reason of every fast model.
+/// [`Error::NoModelApplies`] with the reason of every fast model; [`Error::NotApplicable`] where the default model takes too much memory.
 pub fn default_model(scenario: &Scenario) -> Result<ChosenModel, Error> {
     let chain = model(DEFAULT_MODEL)?;
     let regime = Regime::of(scenario);
@@ -67,6 +69,10 @@ pub fn default_model(scenario: &Scenario) -> Result<ChosenModel, Error> {
             note: None,
         });
     };
+    // A model that takes less memory is no answer to a mesh that is too fine.
+    if memory::refusal(chain.estimate(scenario).memory).as_ref() == Some(&refused) {
+        return Err(Error::not_applicable(chain.name(), refused));
+    }
     let models = fast_models();
     let results: Vec<Result<(), String>> = models
         .iter()

@@ -27,7 +27,7 @@ use crate::{
     response::Response,
     terminal::{self, bold},
     unit_system::unit_system,
-    workers,
+    workers::{self, MOST_THREADS},
 };
 
 const LONG_ABOUT: &str = "\
@@ -85,7 +85,7 @@ pub struct Sweep {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000))]
     axisymmetric: Option<u64>,
     /// Number of threads [default: number of cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(MOST_THREADS)))]
     threads: Option<u16>,
     /// No summary and no progress
     #[arg(long, short)]

@@ -33,7 +33,7 @@ use crate::{
     response::{ProgressCallback, Response, ResponseData, VirtualFiles},
     run_folder::RunFolder,
     speeds::{Speeds, SpeedsError},
-    workers::{self, unless_stopped},
+    workers::{self, MOST_THREADS, unless_stopped},
 };
 
 const LONG_ABOUT: &str = "\
@@ -114,7 +114,7 @@ pub struct Uncertainty {
     #[arg(value_parser = clap::value_parser!(u64).range(FEWEST_POINTS as u64..=MOST_POINTS as u64))]
     axisymmetric: Option<u64>,
     /// Number of threads [default: number of cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(MOST_THREADS)))]
     threads: Option<u16>,
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]
