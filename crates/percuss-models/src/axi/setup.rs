@@ -5,7 +5,6 @@ use super::{
     boundary::{BoundaryCondition, BoundaryConditions},
     contact::Contact,
     fill::{Division, Filling},
-    law::{Law, Pressure},
     mesh::{Axis, Mesh},
     run::materials,
     solver::{Accumulators, DeferredWork, Grid},
@@ -16,6 +15,7 @@ use crate::{
     options::{ContactKind, Edge, Eos},
     problem::{Nose, RearFaceCondition},
     scenario::{Rod, TargetBody},
+    solid::{Law, Pressure},
     solver::{Control, Particle, estimate::expected_depth},
 };
 

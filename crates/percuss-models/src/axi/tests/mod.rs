@@ -19,15 +19,14 @@ use super::{
     body::{Body, Limits},
     boundary::BoundaryConditions,
     contact::Contact,
-    law::{Law, Pressure},
     mesh::Mesh,
-    rates::Rates,
     solver::{Accumulators, DeferredWork, Grid},
 };
 use crate::{
     case::ArtificialViscosity,
     lanes::Lanes,
     material::{FlowState, FlowStress, PreparedStrength},
+    solid::{Law, Pressure, Rates},
     solver::{Control, Particle},
 };
 
