@@ -28,6 +28,8 @@ const CASES: &[(&str, &str, &str)] = &[
     ("disc", "particles", DISC),
     ("bonds that fail by their stress", "particles", BY_STRESS),
     ("balls with friction", "particles", BALLS),
+    ("strip of metal on a wall", "particles", METAL_STRIP),
+    ("metal under a rigid nose", "particles", METAL_PLATE),
 ];
 
 const COLUMN: &str = r#"
@@ -129,6 +131,19 @@ const BY_STRESS: &str = concat!(
     projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "20 m/s", nose = "hemisphere" }
     target = { material = "brittle", thickness = "5 mm", back_face = "free" }
     particles = { spacing = "0.22 mm", width = "40 mm", end_time = "15 us", failure_criterion = "principal-stress" }
+"#,
+    hard_and_brittle!()
+);
+const METAL_STRIP: &str = r#"
+    projectile = { material = "copper", length = "12 mm", diameter = "4 mm", impact_velocity = "200 m/s" }
+    target = { rigid_wall = true }
+    particles = { formulation = "particle-stress", packing = "irregular", end_time = "15 us" }
+"#;
+const METAL_PLATE: &str = concat!(
+    r#"
+    projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "200 m/s", nose = "hemisphere", obliquity = "20 deg" }
+    target = { material = "ofhc-copper-johnson-cook", thickness = "6 mm", back_face = "free" }
+    particles = { formulation = "particle-stress", width = "30 mm", equation_of_state = "mie-gruneisen", end_time = "10 us" }
 "#,
     hard_and_brittle!()
 );

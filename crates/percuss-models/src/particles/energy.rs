@@ -15,6 +15,10 @@ pub(super) struct BodySums {
     pub(super) kinetic: f64,
     pub(super) elastic: f64,
     pub(super) fracture: f64,
+    pub(super) plastic: f64,
+    pub(super) viscous: f64,
+    /// Of the forces that hold neighbours where the gradients of particles put them, stored and lost.
+    pub(super) stabilisation: f64,
 }
 
 impl Body {

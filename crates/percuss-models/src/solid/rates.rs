@@ -97,4 +97,25 @@ impl Rates {
             spin,
         }
     }
+
+    /// Those of a velocity gradient on the configuration half a step on, in plane strain, with the rate of volume.
+    #[inline(always)]
+    pub(crate) fn half_way(gradient: &[Lanes; 4], expansion: Lanes) -> Self {
+        let [rr, rz, zr, zz] = *gradient;
+        let [shape_rr, shape_zz, shape_rz, spin] = each_of(|l| {
+            let third = (rr[l] + zz[l]) / 3.0;
+            [
+                rr[l] - third,
+                zz[l] - third,
+                0.5 * (rz[l] + zr[l]),
+                0.5 * (rz[l] - zr[l]),
+            ]
+        });
+        Self {
+            shape: [shape_rr, shape_zz, shape_rz],
+            expansion,
+            spin,
+            ..Self::NONE
+        }
+    }
 }

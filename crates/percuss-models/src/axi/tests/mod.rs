@@ -5,6 +5,7 @@ mod failure;
 mod load;
 mod opening;
 mod outgoing;
+mod plane_bar;
 mod pressure_dependent;
 mod pressurised;
 mod rigid_motion;
