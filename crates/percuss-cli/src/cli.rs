@@ -8,6 +8,9 @@ use clap::{
     error::{ContextKind, ContextValue, ErrorKind},
 };
 
+use percuss::units::Length;
+use percuss_report::with_figure_width;
+
 use crate::{
     commands::{
         Benchmark, Calibrate, Compare, Completions, Converge, Export, Limit, Man, Materials,
@@ -164,7 +167,35 @@ pub enum Command {
 }
 
 impl Command {
+    /// Width of the figures that the command draws, where it has an option for it.
+    fn figure_width(&self) -> Option<Length> {
+        match self {
+            Self::Run(command) => command.figures.figure_width,
+            Self::Compare(command) => command.figures.figure_width,
+            Self::Limit(command) => command.figures.figure_width,
+            #[cfg(feature = "parquet")]
+            Self::Sweep(command) => command.figure_width(),
+            Self::Calibrate(command) => command.figures.figure_width,
+            Self::Uncertainty(command) => command.figures.figure_width,
+            Self::Converge(command) => command.figures.figure_width,
+            Self::Materials(command) => command.figure_width(),
+            _ => None,
+        }
+    }
+
+    /// Runs with figures of the width that is asked for.
+    fn in_width<T>(&self, run: impl FnOnce(&Self) -> T) -> T {
+        match self.figure_width() {
+            Some(width) => with_figure_width(width, || run(self)),
+            None => run(self),
+        }
+    }
+
     pub fn run(&self) -> Result<(), Failure> {
+        self.in_width(Self::run_in_width)
+    }
+
+    fn run_in_width(&self) -> Result<(), Failure> {
         match self {
             Self::Run(command) => command.run(),
             Self::Compare(command) => command.run(),
@@ -201,7 +232,7 @@ pub fn execute(
 ) -> Result<Response, Failure> {
     limit_memory()?;
     let cli = Cli::parse_line(words).map_err(Failure::CommandLine)?;
-    match cli.command {
+    cli.command.in_width(|command| match command {
         Command::Run(command) => command.execute(virtual_files, stop, on_progress),
         Command::Compare(command) => command.execute(virtual_files, on_progress),
         Command::Limit(command) => command.execute(virtual_files, on_progress),
@@ -220,7 +251,7 @@ pub fn execute(
         Command::Serve(_) | Command::Completions(_) | Command::Man(_) => {
             Err(Failure::no_response())
         }
-    }
+    })
 }
 
 #[cfg(test)]

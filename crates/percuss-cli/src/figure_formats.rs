@@ -1,18 +1,22 @@
-//! Option `--figures`: formats of the figures in a folder.
+//! Options `--figures` and `--figure-width`: formats and width of the figures in a folder.
 
 use clap::Args;
-use percuss_report::FigureFormat;
+use percuss::units::{Length, QuantityError, significant};
+use percuss_report::{FIGURE_WIDTHS, FigureFormat};
 
 /// Files that are written of each figure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Formats(Vec<FigureFormat>);
 
-/// Option of commands that write figures to the folder `--out`.
+/// Options of commands that write figures to the folder `--out`.
 #[derive(Debug, Clone, Args)]
 pub struct FigureArgs {
     /// Formats of the figures in DIR, separated by commas, of svg, png and pdf; none leaves them out [default: svg,png]
     #[arg(long, value_name = "FORMATS", requires = "out", value_parser = formats)]
     figures: Option<Formats>,
+    /// Width of the figures in print, 60 mm to 182 mm: "88 mm" fits a column of a journal [default: 182 mm]
+    #[arg(long, value_name = "WIDTH", requires = "out", value_parser = figure_width)]
+    pub figure_width: Option<Length>,
 }
 
 impl FigureArgs {
@@ -27,7 +31,25 @@ pub fn wanted(formats: Option<&Formats>) -> &[FigureFormat] {
     formats.map_or(FigureFormat::DEFAULT, |Formats(formats)| formats)
 }
 
-/// Reads the value of the option.
+/// Reads a width of figures.
+pub fn figure_width(text: &str) -> Result<Length, String> {
+    let width: Length = text
+        .parse()
+        .map_err(|error: QuantityError| error.to_string())?;
+    let (from, to) = (FIGURE_WIDTHS.start().si(), FIGURE_WIDTHS.end().si());
+    if !(from..=to).contains(&width.si()) {
+        let millimetres = |metres: f64| significant(metres * 1e3, 6);
+        return Err(format!(
+            "{} mm is out of range: allowed are {} mm to {} mm",
+            millimetres(width.si()),
+            millimetres(from),
+            millimetres(to)
+        ));
+    }
+    Ok(width)
+}
+
+/// Reads the value of the option `--figures`.
 pub fn formats(text: &str) -> Result<Formats, String> {
     if text == "none" {
         return Ok(Formats(Vec::new()));
@@ -52,7 +74,7 @@ pub fn formats(text: &str) -> Result<Formats, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Formats, formats};
+    use super::{Formats, figure_width, formats};
     use percuss_report::FigureFormat;
 
     #[test]
@@ -62,6 +84,14 @@ mod tests {
         for wrong in ["", "svg,", "tiff", "svg,svg", "SVG", "none,svg"] {
             assert!(formats(wrong).is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn widths_are_those_of_columns_and_pages() {
+        assert!((figure_width("8.8 cm").unwrap().si() - 0.088).abs() < 1e-12);
+        assert!(figure_width("88").unwrap_err().contains("unit"));
+        let wide = figure_width("2 m").unwrap_err();
+        assert_eq!(wide, "2000 mm is out of range: allowed are 60 mm to 182 mm");
     }
 
     #[cfg(feature = "png")]

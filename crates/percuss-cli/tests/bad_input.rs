@@ -239,7 +239,7 @@ fn links_and_devices_do_not_hang() {
 
 /// Words of the command line and texts of a case are quoted in part: neither messages nor results repeat a megabyte.
 #[test]
-fn long_texts_are_not_repeated() {
+fn texts_are_not_repeated() {
     let folder = crate::support::shot(crate::support::CASE);
     let long = "x".repeat(100_000);
     for words in [

@@ -201,8 +201,9 @@ fn the_reference_depth_of_the_papers_case_is_one_number() {
     assert_eq!(fine.len(), 5, "{fine:?}");
     let mean = fine.iter().sum::<f64>() / fine.len() as f64;
     assert!((mean - number(depth)).abs() < 6e-4, "{mean} and {stated}");
+    // Depths of the table are rounded to 0.001 mm.
     let spread = fine.iter().map(|depth| (depth - mean).abs());
-    assert!(spread.fold(0.0, f64::max) <= number(uncertainty));
+    assert!(spread.fold(0.0, f64::max) <= number(uncertainty) + 5e-4);
 
     // The report that the program writes has it from its own data.
     let report = fs::read_to_string(root().join("docs/reference/benchmark/benchmark.md")).unwrap();

@@ -107,6 +107,59 @@ fn pipes_are_refused_in_the_files_that_name_them() {
     }
 }
 
+/// Files of the program's own that would fill the memory: they have holes, and take no place on the disk.
+#[test]
+fn large_files_in_the_place_of_own_ones_are_not_read() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let sweep = ["sweep", "sweep.toml", "--out", "rows", "--quiet"];
+    percuss(folder.path(), sweep).ok();
+    std::fs::create_dir(at("out")).unwrap();
+    for name in ["rows/block-000000.parquet", "out/checkpoint.percuss"] {
+        let file = std::fs::File::create(at(name)).unwrap();
+        file.set_len(3 << 30).unwrap();
+    }
+    let start = Instant::now();
+    let run = ["run", "scenario.toml", "--fast", "--out", "out", "--resume"];
+    let (code, said) = ended(folder.path(), &run);
+    assert_eq!(code, 2, "{said}");
+    assert!(flat(&said).contains("it is no checkpoint"), "{said}");
+    let merge = ["sweep", "merge", "rows", "--out", "all.parquet"];
+    let (code, said) = ended(folder.path(), &merge);
+    assert_ne!(code, 0);
+    assert!(flat(&said).contains("damaged"), "{said}");
+    // Three gibibytes take longer to read.
+    println!("{:?}", start.elapsed());
+}
+
+#[test]
+fn files_that_are_not_there_are_errors_of_files() {
+    let folder = folder();
+    let curves = format!("{CASE}\n[[measured_curves]]\nfile = 'none.csv'\n");
+    std::fs::write(folder.path().join("curves.toml"), curves).unwrap();
+    for command in [
+        &["run", "curves.toml"][..],
+        &["benchmark", "--paper-case", "none.csv"],
+    ] {
+        let (code, said) = ended(folder.path(), command);
+        assert_eq!(code, 4, "{command:?}: {said}");
+        assert!(flat(&said).contains("there is no such file"), "{said}");
+    }
+}
+
+#[test]
+fn texts_with_control_characters_are_refused() {
+    let folder = folder();
+    let case = CASE.replace("Copper on", "Copper \\u001b[2J on");
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    let (code, said) = ended(folder.path(), &["run", "case.toml"]);
+    assert_eq!(code, 2, "{said}");
+    assert!(
+        said.contains("U+001B") && !said.contains('\u{1b}'),
+        "{said}"
+    );
+}
+
 /// A pipe in the place of a file of the program's own ends with an error or counts as damaged.
 #[test]
 fn pipes_in_a_folder_of_results_are_refused() {

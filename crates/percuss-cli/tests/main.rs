@@ -9,6 +9,7 @@ mod checkpoints;
 mod compare;
 mod docs;
 mod export;
+mod figure_width;
 mod figures;
 mod fuzz;
 mod help;

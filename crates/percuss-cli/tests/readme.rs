@@ -34,7 +34,11 @@ fn lines(text: &str, language: &str) -> Vec<String> {
 fn every_percuss_command_of_the_readme_runs() {
     let folder = tempfile::tempdir().unwrap();
     // A reader stands in the clone: the cases that commands name are there.
-    for name in ["cases/paper-table1", "cases/paper-table1-uncertainty"] {
+    for name in [
+        "cases/paper-table1",
+        "cases/paper-table1-uncertainty",
+        "cases/weldox-460e-12mm-blunt",
+    ] {
         let case = folder.path().join(name);
         fs::create_dir_all(&case).unwrap();
         for file in fs::read_dir(root().join(name)).unwrap() {

@@ -302,10 +302,17 @@ target = { material = "6061-t6", thickness = "semi-infinite" }
 fn a_case_that_the_chain_does_not_take_runs_by_the_recommended_model() {
     let folder = shot(OGIVE);
     let compared = json(&ok(folder.path(), &["compare", "shot.toml", "--json"]));
-    let recommended = compared["recommended"][0]["models"].as_array().unwrap();
-    let recommended = recommended.iter().find(|choice| choice["model"] != "axi");
-    let recommended = recommended.unwrap();
-    let model = recommended["model"].as_str().unwrap();
+    // `axi` comes first; of the quick models `tate` is outside its range, and the rod may be rigid.
+    let recommended = &compared["recommended"][0];
+    assert_eq!(recommended["models"][0]["model"], "axi");
+    let note = recommended["note"].as_str().unwrap();
+    for part in [
+        "`tate` would be a first choice, but length to diameter",
+        "`forrestal` is the first choice: compare both",
+    ] {
+        assert!(note.contains(part), "{note}");
+    }
+    let model = "forrestal";
     let ran = json(&ok(
         folder.path(),
         &["run", "--fast", "shot.toml", "--json"],
@@ -316,8 +323,12 @@ fn a_case_that_the_chain_does_not_take_runs_by_the_recommended_model() {
         "model `{model}` instead of the default `chain`, which does not apply: it takes flat noses"
     );
     assert!(choice.starts_with(&start), "{choice}");
-    let because = recommended["because"].as_str().unwrap();
-    assert!(choice.contains(because), "{choice}");
+    for part in [
+        "the resistance to a rigid nose follows from the target's own strength law",
+        "`tate` would be a first choice",
+    ] {
+        assert!(choice.contains(part), "{choice}");
+    }
 
     let text = ok(folder.path(), &["run", "--fast", "shot.toml"]);
     let first: Vec<&str> = text.lines().take(4).collect();

@@ -192,6 +192,22 @@ fn lost_and_damaged_blocks_are_computed_again() {
     assert!(merged(&folder, &["rows"]) == whole);
 }
 
+/// A case without a title has the name of its folder, which may move.
+#[test]
+fn a_sweep_goes_on_in_a_folder_that_was_moved() {
+    let case = CASE.replace("title = \"Copper on aluminium\"", "");
+    let mut folder = folder_with(&[("scenario.toml", &case), ("random.toml", RANDOM)]);
+    ok(&folder, &["random.toml", "--out", "rows"]);
+    let whole = merged(&folder, &["rows"]);
+    let moved = folder_with(&[]);
+    fs::remove_dir(moved.path()).unwrap();
+    fs::rename(folder.path(), moved.path()).unwrap();
+    folder.disable_cleanup(true);
+    fs::remove_file(block(&moved, "rows", 2)).unwrap();
+    ok(&moved, &["random.toml", "--out", "rows", "--resume"]);
+    assert!(merged(&moved, &["rows"]) == whole);
+}
+
 #[test]
 fn a_folder_of_another_sweep_is_refused() {
     let folder = folder();

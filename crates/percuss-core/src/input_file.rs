@@ -16,8 +16,11 @@ use crate::error::Error;
 
 /// Largest table of tests or reference results, and largest deck of another program, that is read: 64 MiB.
 pub const MAX_TABLE_BYTES: u64 = 1 << 26;
-/// Largest file of the program's own, such as a checkpoint, that is read: 16 GiB.
+/// Largest file of the program's own that is opened, not read as a whole: 16 GiB.
 pub const MAX_OWN_BYTES: u64 = 1 << 34;
+
+/// Largest block of rows of a sweep: 256 MiB.
+pub const MAX_BLOCK_BYTES: u64 = 1 << 28;
 
 /// Opens a regular file of at most `limit` bytes.
 ///
@@ -74,6 +77,24 @@ pub fn bytes(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
         .take(limit.saturating_add(1))
         .read_to_end(&mut bytes)?;
     match read as u64 > limit {
+        true => Err(too_large(limit)),
+        false => Ok(bytes),
+    }
+}
+
+/// Bytes of a regular file of at most `limit` bytes; its first ones alone where they are not `start`.
+///
+/// # Errors
+/// As [`open`].
+pub fn bytes_after(start: &[u8], path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+    let file = open(path, limit)?;
+    let mut bytes = Vec::new();
+    (&file).take(start.len() as u64).read_to_end(&mut bytes)?;
+    if bytes == start {
+        let rest = limit.saturating_add(1).saturating_sub(bytes.len() as u64);
+        (&file).take(rest).read_to_end(&mut bytes)?;
+    }
+    match bytes.len() as u64 > limit {
         true => Err(too_large(limit)),
         false => Ok(bytes),
     }

@@ -6,6 +6,7 @@ mod fixed_rear_face;
 mod lists;
 mod nose_kind;
 mod oblique;
+mod pushed_column;
 mod range;
 mod temperature;
 
@@ -13,6 +14,7 @@ pub use first_choice::FirstChoice;
 pub use fitted_to::FittedTo;
 pub use fixed_rear_face::fixed_rear_face_warning;
 pub use nose_kind::NoseKind;
+pub use pushed_column::pushed_column_warning;
 pub use range::{Measure, Outside, Range};
 
 use serde::Serialize;

@@ -23,7 +23,8 @@ pub use recommend::recommend;
 pub use recommend::{Choice, Recommendation};
 
 pub use crate::solver::{
-    Checkpoints, Control, CostClass, Model, OnFrame, Progress, applicability, run, run_explained,
+    CHECKPOINT_START, Checkpoints, Control, CostClass, Model, OnFrame, Progress, applicability,
+    run, run_explained,
 };
 pub use crate::solver::{Estimate, memory, time_in_words};
 pub use crate::solver::{applicability_in, complete, run_in};

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -202,3 +203,16 @@ def test_figures_have_the_formats_that_are_asked_for(tmp_path: Path) -> None:
         suffixes("tiff")
     with pytest.raises(percuss.UsageError, match="--out"):
         percuss.converge("cases/taylor-copper-wilkins/scenario.toml", figures="pdf")
+
+
+def test_figures_have_the_width_that_is_asked_for(tmp_path: Path) -> None:
+    def widths(width: str | None) -> set[str]:
+        case = "cases/taylor-copper-wilkins/scenario.toml"
+        result = percuss.run(case, out=tmp_path / "out", figures="svg", figure_width=width, progress=False)
+        figures = [file for file in result.files if file.suffix == ".svg"]
+        return {width for file in figures for width in re.findall(r'<svg[^>]* width="(\d+)"', file.read_text())}
+
+    assert widths("91 mm") == {"430"}
+    assert widths(None) == {"860"}
+    with pytest.raises(percuss.UsageError, match="60 mm to 182 mm"):
+        widths("5 mm")

@@ -2,6 +2,8 @@
 
 /// Part of the extent of the data that an axis leaves free on either side.
 const MARGIN: f64 = 0.04;
+/// A logarithmic axis of less than so many decades need not end at whole ones.
+const DECADES: f64 = 2.0;
 /// Relative difference of numbers that an axis does not tell apart.
 const SAME: f64 = 1e-6;
 
@@ -90,10 +92,11 @@ impl Axis {
         if self.range.is_some() {
             return self.range;
         }
-        if self.log {
-            return None;
-        }
         let (low, high) = extent;
+        if self.log {
+            let few = (high / low).log10() < DECADES;
+            return few.then(|| (round_below(low), 1.0 / round_below(1.0 / high)));
+        }
         // Values that differ by rounding errors only are one value.
         let size = low.abs().max(high.abs());
         if high - low <= SAME * size {
@@ -122,5 +125,34 @@ impl Axis {
             (false, true) => (1.0, 10.0),
             (false, false) => (0.0, 1.0),
         }
+    }
+}
+
+/// The next number below that is 1, 2 or 5 times a power of ten, with a margin.
+fn round_below(value: f64) -> f64 {
+    let value = value * (1.0 - MARGIN);
+    let decade = 10_f64.powf(value.log10().floor());
+    let factors = [5.0, 2.0, 1.0];
+    let factor = factors.into_iter().find(|factor| factor * decade <= value);
+    factor.unwrap_or(1.0) * decade
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_logarithmic_axes_end_at_round_numbers_clear_of_the_data() {
+        let range = |low, high| Axis::new("").log().fixed_range((low, high)).unwrap();
+        let near = |a: (f64, f64), b: (f64, f64)| {
+            assert!(
+                (a.0 / b.0 - 1.0).abs() < 1e-12 && (a.1 / b.1 - 1.0).abs() < 1e-12,
+                "{a:?}"
+            );
+        };
+        near(range(40.0, 320.0), (20.0, 500.0));
+        near(range(20.0, 500.0), (10.0, 1000.0));
+        near(range(0.003, 0.003), (0.002, 0.005));
+        assert_eq!(Axis::new("").log().fixed_range((1.0, 1000.0)), None);
     }
 }

@@ -9,14 +9,17 @@ use serde::Serialize;
 use crate::{
     Axis, Figure, Mark,
     chart_methods::chart_methods,
+    figure_width,
     frame::{Frame, Head, plain},
     mark,
     primitives::{area_entry, bar, border, line, text},
     single,
 };
 
-/// Most characters of a name.
+/// Most characters of a name, on a figure of usual width.
 const NAME_CHARS: usize = 46;
+/// Part of a narrow figure that names may take.
+const NARROW_NAMES: f64 = 0.4;
 /// Height of a row, and of what surrounds the rows [px].
 const ROW: f64 = 42.0;
 const SURROUNDINGS: f64 = 150.0;
@@ -102,7 +105,11 @@ impl BarRows {
     pub fn draw(&self) -> Figure {
         let count = self.rows.len().max(1) as f64;
         let (x, extent) = self.axis();
-        let names = self.rows.iter().rev().map(|row| plain(&row.0, NAME_CHARS));
+        let chars = match figure_width::is_narrow() {
+            true => (NARROW_NAMES * figure_width::pixels() / TEXT_WIDTH) as usize,
+            false => NAME_CHARS,
+        };
+        let names = self.rows.iter().rev().map(|row| plain(&row.0, chars));
         let y = Axis::new("").range(0.5, count + 0.5).names(names);
         let legend = self
             .colors
@@ -154,15 +161,16 @@ impl BarRows {
     /// Part of the width that texts take at the left and at the right of the bars.
     fn space_for_texts(&self) -> (f64, f64) {
         // What names, legend and margins leave of the canvas, near enough [px].
-        const PLOT_WIDTH: f64 = 320.0;
+        let plot_width = 0.37 * figure_width::pixels();
         let bars = || self.rows.iter().flat_map(|row| &row.1);
         let longest = |left: bool| {
             let texts = bars().filter(|bar| (bar.ends.1 < bar.ends.0) == left);
             texts.map(|bar| bar.text.chars().count()).max().unwrap_or(0) as f64
         };
+        let most = if figure_width::is_narrow() { 0.6 } else { 0.3 };
         let part = |chars: f64| match chars {
             0.0 => 0.03,
-            chars => ((chars * TEXT_WIDTH + 2.0 * TEXT_GAP) / PLOT_WIDTH).min(0.3),
+            chars => ((chars * TEXT_WIDTH + 2.0 * TEXT_GAP) / plot_width).min(most),
         };
         (part(longest(true)), part(longest(false)))
     }

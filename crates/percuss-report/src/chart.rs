@@ -11,7 +11,8 @@ use kuva::render::plots::Plot;
 use crate::{
     Axis, Figure, Mark, Series, Style,
     chart_methods::chart_methods,
-    frame::{Frame, HEIGHT, Head, WIDTH, plain},
+    figure_width,
+    frame::{Frame, Head, plain},
     mark, palette,
 };
 
@@ -92,12 +93,12 @@ impl LineChart {
         let mut frame = Frame {
             legend: self.legend(),
             marks: mark::reference_lines(&self.marks),
-            square: self.square,
+            aspect: self.square.then_some(1.0),
             ..Frame::new(&self.head, [&self.x, &self.y], (x_extent, y_extent))
         };
         let (mut x, mut y) = (self.x.clone(), self.y.clone());
         if self.true_to_scale {
-            frame.height = true_to_scale(&mut x, &mut y, frame.x_extent, frame.y_extent);
+            frame.aspect = true_to_scale(&mut x, &mut y, frame.x_extent, frame.y_extent);
         }
         // A marker at zero would be cut in halves by an axis that starts there.
         if self.has_marker_at(|point| point.0 == 0.0) {
@@ -318,17 +319,25 @@ fn markers(series: &Series, run: std::ops::Range<usize>, color: &str, shape: Mar
     markers.into()
 }
 
-/// Height of a figure in which a unit has the same length on both axes; the ranges grow where no height suffices.
-fn true_to_scale(x: &mut Axis, y: &mut Axis, x_extent: (f64, f64), y_extent: (f64, f64)) -> f64 {
-    // What captions, tick labels and legend leave of the canvas, near enough [px].
-    const PLOT_WIDTH: f64 = WIDTH - 240.0;
-    const SURROUNDINGS: f64 = 130.0;
+/// Height over width of a plot in which a unit has the same length on both axes; the ranges grow where no height suffices.
+fn true_to_scale(
+    x: &mut Axis,
+    y: &mut Axis,
+    x_extent: (f64, f64),
+    y_extent: (f64, f64),
+) -> Option<f64> {
+    // What tick labels and legend leave of the width, near enough [px].
+    let plot_width = figure_width::pixels()
+        - if figure_width::is_narrow() {
+            100.0
+        } else {
+            240.0
+        };
     const PLOT_HEIGHTS: (f64, f64) = (200.0, 520.0);
-    let (Some(x_range), Some(y_range)) = (x.fixed_range(x_extent), y.fixed_range(y_extent)) else {
-        return HEIGHT;
-    };
+    let x_range = x.fixed_range(x_extent)?;
+    let y_range = y.fixed_range(y_extent)?;
     let spans = (x_range.1 - x_range.0, y_range.1 - y_range.0);
-    let wanted = PLOT_WIDTH * spans.1 / spans.0;
+    let wanted = plot_width * spans.1 / spans.0;
     let height = wanted.clamp(PLOT_HEIGHTS.0, PLOT_HEIGHTS.1);
     let widen = |range: (f64, f64), factor: f64| {
         let (middle, half) = (0.5 * (range.0 + range.1), 0.5 * (range.1 - range.0));
@@ -341,7 +350,7 @@ fn true_to_scale(x: &mut Axis, y: &mut Axis, x_extent: (f64, f64), y_extent: (f6
     };
     *x = x.clone().range(x_range.0, x_range.1);
     *y = y.clone().range(y_range.0, y_range.1);
-    height + SURROUNDINGS
+    Some(height / plot_width)
 }
 
 #[cfg(test)]

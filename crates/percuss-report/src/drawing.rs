@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::{Figure, frame::plain, page::html::escape};
+use crate::{Figure, figure_width, frame::plain, page::html::escape};
 
 /// A figure in the making.
 pub(crate) struct Drawing {
@@ -124,12 +124,23 @@ impl Drawing {
             let content = shorten(content, chars);
             self.text((0.5 * self.width, y), &content, Text::new(size, "middle"));
         }
+        // Panels side by side keep their places; on a narrower page they shrink.
+        let scale = (figure_width::pixels() / self.width).min(1.0);
+        let scale = if figure_width::is_narrow() {
+            scale
+        } else {
+            1.0
+        };
         Figure {
             name: name.into(),
             title: format!("{title}: {caption}"),
             svg: format!(
-                r#"<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" font-family="DejaVu Sans, Arial, sans-serif"><rect width="{0}" height="{1}" fill="white"/>{2}</svg>"#,
-                self.width, self.height, self.svg
+                r#"<svg xmlns="http://www.w3.org/2000/svg" width="{3}" height="{4}" viewBox="0 0 {0} {1}" font-family="DejaVu Sans, Arial, sans-serif"><rect width="{0}" height="{1}" fill="white"/>{2}</svg>"#,
+                self.width,
+                self.height,
+                self.svg,
+                scale * self.width,
+                scale * self.height
             ),
         }
     }

@@ -3,7 +3,10 @@
 use std::{
     borrow::Cow,
     path::{Path, PathBuf},
-    sync::atomic::{AtomicUsize, Ordering},
+    sync::{
+        Mutex,
+        atomic::{AtomicUsize, Ordering},
+    },
 };
 
 use rayon::prelude::*;
@@ -77,19 +80,34 @@ impl Figure {
         folder: &Path,
         formats: &[FigureFormat],
     ) -> Result<Vec<PathBuf>, ReportError> {
+        self.write_from(folder, formats, &SpareMemory::default())
+    }
+
+    /// The same in memory of other figures.
+    fn write_from(
+        &self,
+        folder: &Path,
+        formats: &[FigureFormat],
+        spare: &SpareMemory,
+    ) -> Result<Vec<PathBuf>, ReportError> {
         let files = formats.iter().map(|format| {
             let name = format!("{}.{}", self.name, format.suffix());
-            replace_file(folder, &name, &self.file(*format)?)
+            replace_file(folder, &name, &self.file(*format, spare)?)
         });
         files.collect()
     }
 
     /// Content of a file.
-    fn file(&self, format: FigureFormat) -> Result<Cow<'_, [u8]>, ReportError> {
+    #[cfg_attr(not(feature = "png"), allow(unused_variables))]
+    fn file(
+        &self,
+        format: FigureFormat,
+        spare: &SpareMemory,
+    ) -> Result<Cow<'_, [u8]>, ReportError> {
         Ok(match format {
             FigureFormat::Svg => Cow::Borrowed(self.svg.as_bytes()),
             #[cfg(feature = "png")]
-            FigureFormat::Png => Cow::Owned(self.png()?),
+            FigureFormat::Png => Cow::Owned(self.png_from(spare)?),
             #[cfg(feature = "png")]
             FigureFormat::Pdf => Cow::Owned(self.pdf()?),
         })
@@ -107,7 +125,7 @@ impl Figure {
         replace_file(
             folder,
             &format!("{}.{IN_PAGES}", self.name),
-            &self.file(format)?,
+            &self.file(format, &SpareMemory::default())?,
         )
     }
 }
@@ -123,15 +141,40 @@ pub fn write_figures(
     formats: &[FigureFormat],
     finished: &(dyn Fn(usize, &str) + Sync),
 ) -> Result<Vec<PathBuf>, ReportError> {
-    let done = AtomicUsize::new(0);
+    let (done, spare) = (AtomicUsize::new(0), SpareMemory::default());
     let written: Vec<_> = figures
         .par_iter()
         .map(|figure| {
-            let files = figure.write(folder, formats);
+            let files = figure.write_from(folder, formats, &spare);
             finished(done.fetch_add(1, Ordering::Relaxed) + 1, &figure.name);
             files
         })
         .collect();
     let files: Result<Vec<_>, _> = written.into_iter().collect();
     Ok(files?.concat())
+}
+
+/// Memory of pictures that are complete, for the next ones.
+#[derive(Debug, Default)]
+pub(crate) struct SpareMemory(Mutex<Vec<Vec<u8>>>);
+
+impl SpareMemory {
+    /// Memory of a number of bytes, of any content.
+    pub(crate) fn take(&self, bytes: usize) -> Vec<u8> {
+        let spare = self.0.lock().ok().and_then(|mut all| all.pop());
+        match spare {
+            Some(mut spare) => {
+                spare.resize(bytes, 0);
+                spare
+            }
+            None => vec![0; bytes],
+        }
+    }
+
+    /// Gives memory back.
+    pub(crate) fn give(&self, memory: Vec<u8>) {
+        if let Ok(mut all) = self.0.lock() {
+            all.push(memory);
+        }
+    }
 }

@@ -16,16 +16,20 @@ use kuva::{
 
 use serde::Serialize;
 
-use crate::{Axis, Figure};
+use crate::{Axis, Figure, figure_width};
 
-/// Width of all figures [px].
-pub(crate) const WIDTH: f64 = 860.0;
 /// Height of figures whose content does not ask for another one [px].
-pub(crate) const HEIGHT: f64 = 500.0;
+pub(crate) fn height() -> f64 {
+    match figure_width::is_narrow() {
+        true => (0.72 * figure_width::pixels()).max(280.0),
+        false => 500.0,
+    }
+}
 /// Right margin of a figure without legend [px].
 const RIGHT_MARGIN: f64 = 24.0;
 /// Sizes of title, caption and axis labels [px].
 const TITLE_SIZE: u32 = 17;
+const NARROW_TITLE_SIZE: u32 = 13;
 const CAPTION_SIZE: u32 = 12;
 const LABEL_SIZE: u32 = 14;
 /// Mean width of a character, in sizes of the font, rather too much than too little.
@@ -58,8 +62,8 @@ pub(crate) struct Frame<'a> {
     pub(crate) x_extent: (f64, f64),
     pub(crate) y_extent: (f64, f64),
     pub(crate) height: f64,
-    /// Whether the plot is as high as wide, by the height of the figure.
-    pub(crate) square: bool,
+    /// Height of the plot over its width, had by the height of the figure.
+    pub(crate) aspect: Option<f64>,
     /// Space at the right that the content draws in itself, in place of a legend [px].
     pub(crate) right_margin: Option<f64>,
     pub(crate) legend: Vec<LegendEntry>,
@@ -79,8 +83,8 @@ impl<'a> Frame<'a> {
             y,
             x_extent,
             y_extent,
-            height: HEIGHT,
-            square: false,
+            height: height(),
+            aspect: None,
             right_margin: None,
             legend: Vec::new(),
             marks: Vec::new(),
@@ -93,10 +97,13 @@ impl<'a> Frame<'a> {
         plots: Vec<Plot>,
         finish: impl FnOnce(&mut Scene, &ComputedLayout),
     ) -> Figure {
-        if self.square {
-            let place = ComputedLayout::from_layout(&self.layout());
-            self.height += place.plot_width() - place.plot_height();
-        }
+        let place = ComputedLayout::from_layout(&self.layout());
+        self.height += match self.aspect {
+            Some(aspect) => aspect * place.plot_width() - place.plot_height(),
+            // Wrapped titles and a legend below take nothing from the plot.
+            None if figure_width::is_narrow() => place.legend_bottom_extra + place.margin_top,
+            None => 0.0,
+        };
         let layout = self.layout();
         let place = ComputedLayout::from_layout(&layout);
         let mut scene = render_multiple(plots, layout);
@@ -116,15 +123,15 @@ impl<'a> Frame<'a> {
         theme.grid_color = "#e4e4e4".to_owned();
         let mut layout = Layout::new(self.x_extent, self.y_extent)
             .with_theme(theme)
-            .with_width(WIDTH)
+            .with_width(figure_width::pixels())
             .with_height(self.height)
-            .with_title_size(TITLE_SIZE)
+            .with_title_size(title_size())
             .with_label_size(LABEL_SIZE)
             .with_tick_size(12)
             .with_body_size(12)
             .with_grid_line_width(0.8)
             .with_box_axes()
-            .with_ticks(7)
+            .with_ticks(if figure_width::is_narrow() { 5 } else { 7 })
             .with_tick_format(TickFormat::Custom(Arc::new(tick_label)))
             .with_x_label(plain(&self.x.label, usize::MAX))
             .with_y_label(plain(&self.y.label, usize::MAX));
@@ -159,9 +166,13 @@ impl<'a> Frame<'a> {
             let left = ComputedLayout::from_layout(&layout).margin_left;
             layout.with_force_margins(left, self.right_margin.unwrap_or(RIGHT_MARGIN))
         } else {
+            let position = match figure_width::is_narrow() {
+                true => LegendPosition::OutsideBottomColumns,
+                false => LegendPosition::OutsideRightTop,
+            };
             layout
                 .with_legend_entries(self.legend.clone())
-                .with_legend_position(LegendPosition::OutsideRightTop)
+                .with_legend_position(position)
                 .with_legend_box(false)
         };
         self.fit_texts(layout)
@@ -171,11 +182,13 @@ impl<'a> Frame<'a> {
     fn fit_texts(&self, layout: Layout) -> Layout {
         let place = ComputedLayout::from_layout(&layout);
         let middle = place.margin_left + 0.5 * place.plot_width();
-        let width = 2.0 * middle.min(WIDTH - middle);
+        let width = 2.0 * middle.min(figure_width::pixels() - middle);
         let chars = |space: f64, size: u32| (space / (CHAR_WIDTH * f64::from(size))) as usize;
-        let (title, caption) = (chars(width, TITLE_SIZE), chars(width, CAPTION_SIZE));
+        let (title, caption) = (chars(width, title_size()), chars(width, CAPTION_SIZE));
+        let lines = if figure_width::is_narrow() { 2 } else { 1 };
         let layout = layout
-            .with_title(plain(&self.head.title, title))
+            .with_title(plain(&self.head.title, lines * title))
+            .with_title_wrap(title)
             .with_x_label_wrap(chars(width, LABEL_SIZE))
             .with_y_label_wrap(chars(0.8 * self.height, LABEL_SIZE));
         if self.head.caption.is_empty() {
@@ -185,6 +198,13 @@ impl<'a> Frame<'a> {
             .with_subtitle(plain(&self.head.caption, (2 * caption).saturating_sub(10)))
             .with_subtitle_size(CAPTION_SIZE)
             .with_subtitle_wrap(caption)
+    }
+}
+
+fn title_size() -> u32 {
+    match figure_width::is_narrow() {
+        true => NARROW_TITLE_SIZE,
+        false => TITLE_SIZE,
     }
 }
 

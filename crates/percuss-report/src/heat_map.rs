@@ -17,7 +17,7 @@ use crate::{
     Axis, Figure,
     chart_methods::chart_methods,
     color_bar::ColorBar,
-    frame::{Frame, HEIGHT, Head},
+    frame::{Frame, Head},
     palette,
     primitives::{border, filled, line, text},
 };
@@ -81,7 +81,7 @@ pub struct HeatMap {
     pub(crate) vertical_lines: Vec<f64>,
     texts: Vec<Vec<String>>,
     scale: Option<Scale>,
-    height: f64,
+    height: Option<f64>,
 }
 
 chart_methods!(HeatMap);
@@ -107,7 +107,7 @@ impl HeatMap {
             vertical_lines: Vec::new(),
             texts: Vec::new(),
             scale: None,
-            height: HEIGHT,
+            height: None,
         }
     }
 
@@ -145,16 +145,17 @@ impl HeatMap {
 
     /// Sets the height of the figure [px].
     pub fn height(mut self, height: f64) -> Self {
-        self.height = height;
+        self.height = Some(height);
         self
     }
 
     /// Draws the heat map.
     pub fn draw(&self) -> Figure {
+        let usual = Frame::new(&self.head, [&self.x, &self.y], self.extents());
         let frame = Frame {
-            height: self.height,
+            height: self.height.unwrap_or(usual.height),
             right_margin: Some(BAR_MARGIN),
-            ..Frame::new(&self.head, [&self.x, &self.y], self.extents())
+            ..usual
         };
         let scale = self.scale();
         // Axes are drawn only for a plot, so there is one without content.

@@ -7,10 +7,12 @@ use resvg::{
     usvg::{Options, Tree, fontdb::Database},
 };
 
-use crate::{Figure, ReportError, png_file};
+use crate::{Figure, ReportError, figure::SpareMemory, png_file};
 
 /// Pixels of a PNG per SVG user unit.
 const PNG_SCALE: f32 = 2.0;
+/// What the drawings of charts begin with.
+const BACKGROUND: &str = r#"<rect width="100%" height="100%" fill="white" />"#;
 
 impl Figure {
     /// The figure as a PNG file, two pixels per SVG user unit.
@@ -18,18 +20,30 @@ impl Figure {
     /// # Errors
     /// [`ReportError::Figure`].
     pub fn png(&self) -> Result<Vec<u8>, ReportError> {
-        png_file::encode(&self.name, &self.pixels(PNG_SCALE)?)
+        self.png_from(&SpareMemory::default())
+    }
+
+    /// The same in memory of other figures.
+    pub(crate) fn png_from(&self, spare: &SpareMemory) -> Result<Vec<u8>, ReportError> {
+        let pixels = self.pixels_in(PNG_SCALE, spare)?;
+        png_file::encode(&self.name, pixels, spare)
     }
 
     /// The figure on white, at a number of pixels per SVG user unit.
     pub(crate) fn pixels(&self, scale: f32) -> Result<Pixmap, ReportError> {
-        let tree = tree(&self.name, &self.svg)?;
+        self.pixels_in(scale, &SpareMemory::default())
+    }
+
+    fn pixels_in(&self, scale: f32, spare: &SpareMemory) -> Result<Pixmap, ReportError> {
+        // The white behind all of it stands in the picture already.
+        let tree = tree(&self.name, &self.svg.replacen(BACKGROUND, "", 1))?;
         let size = tree
             .size()
             .to_int_size()
             .scale_by(scale)
             .ok_or_else(|| failure(&self.name, "it has no area".to_owned()))?;
-        let mut pixels = Pixmap::new(size.width(), size.height())
+        let bytes = 4 * size.width() as usize * size.height() as usize;
+        let mut pixels = Pixmap::from_vec(spare.take(bytes), size)
             .ok_or_else(|| failure(&self.name, "it is too large".to_owned()))?;
         pixels.fill(Color::WHITE);
         resvg::render(

@@ -8,7 +8,7 @@ use std::{
     collections::HashMap,
     io,
     net::IpAddr,
-    pin::Pin,
+    pin::{Pin, pin},
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
         atomic::{AtomicBool, Ordering},
@@ -21,7 +21,7 @@ use hyper::Version;
 use tokio::{
     io::{AsyncRead, AsyncWrite, Interest, ReadBuf},
     net::TcpStream,
-    sync::{OwnedSemaphorePermit, Semaphore},
+    sync::{Notify, OwnedSemaphorePermit, Semaphore},
     time::{Instant, Sleep, sleep, sleep_until},
 };
 
@@ -42,6 +42,8 @@ pub(crate) struct Places {
     unknown: Arc<Semaphore>,
     /// Connections of each peer that have not shown the token.
     peers: Arc<Mutex<HashMap<IpAddr, usize>>>,
+    /// Told while somebody waits for a place.
+    waiting: Arc<Notify>,
 }
 
 /// Place that nobody has yet.
@@ -55,6 +57,7 @@ pub(crate) struct FreePlace {
 #[derive(Debug)]
 pub(crate) struct Place {
     visitor: Visitor,
+    waiting: Arc<Notify>,
     _any: OwnedSemaphorePermit,
 }
 
@@ -76,16 +79,26 @@ impl Places {
             all: Arc::new(Semaphore::new(CONNECTIONS)),
             unknown: Arc::new(Semaphore::new(CONNECTIONS_WITHOUT_TOKEN)),
             peers: Arc::default(),
+            waiting: Arc::default(),
         }
     }
 
-    /// Waits for a free place.
+    /// Waits for a free place. Meanwhile connections that have had a response and ask for nothing give way: a client can open another one.
     pub(crate) async fn free(&self) -> Option<FreePlace> {
-        // The semaphores are never closed.
-        Some(FreePlace {
-            unknown: Arc::clone(&self.unknown).acquire_owned().await.ok()?,
-            any: Arc::clone(&self.all).acquire_owned().await.ok()?,
-        })
+        let mut wanted = pin!(async {
+            // The semaphores are never closed.
+            Some(FreePlace {
+                unknown: Arc::clone(&self.unknown).acquire_owned().await.ok()?,
+                any: Arc::clone(&self.all).acquire_owned().await.ok()?,
+            })
+        });
+        loop {
+            tokio::select! {
+                biased;
+                free = &mut wanted => return free,
+                () = sleep(LOOK) => self.waiting.notify_waiters(),
+            }
+        }
     }
 
     /// Gives a free place to a peer; none where its clients without the token have their share.
@@ -104,6 +117,7 @@ impl Places {
         };
         Some(Place {
             visitor: Visitor(Arc::new(Mutex::new(Some(stranger)))),
+            waiting: Arc::clone(&self.waiting),
             _any: free.any,
         })
     }
@@ -112,6 +126,16 @@ impl Places {
 impl Place {
     pub(crate) fn visitor(&self) -> Visitor {
         self.visitor.clone()
+    }
+
+    /// Ends when somebody waits for a place and this one's client has had a response.
+    pub(crate) async fn is_wanted(&self, line: &Line) {
+        loop {
+            self.waiting.notified().await;
+            if line.has_answered.load(Ordering::Relaxed) {
+                return;
+            }
+        }
     }
 }
 
@@ -150,6 +174,8 @@ pub(crate) struct Line {
     is_computing: Arc<AtomicBool>,
     /// The client does not take what is written.
     is_full: Arc<AtomicBool>,
+    /// A request was answered.
+    has_answered: Arc<AtomicBool>,
 }
 
 /// Request that is computed, until this is dropped.
@@ -190,6 +216,7 @@ impl Line {
 impl Drop for Computing {
     fn drop(&mut self) {
         self.0.is_computing.store(false, Ordering::Relaxed);
+        self.0.has_answered.store(true, Ordering::Relaxed);
     }
 }
 

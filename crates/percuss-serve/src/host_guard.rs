@@ -177,8 +177,8 @@ fn remember(token: &str, path: &str) -> Response {
     if let Ok(cookie) = HeaderValue::from_str(&cookie) {
         headers.insert(header::SET_COOKIE, cookie);
     }
-    // Two slashes would lead to another host.
-    let path = format!("/{}", path.trim_start_matches('/'));
+    // Two slashes, of either kind, would lead to another host.
+    let path = format!("/{}", path.trim_start_matches(['/', '\\']));
     if let Ok(path) = HeaderValue::from_str(&path) {
         headers.insert(header::LOCATION, path);
     }

@@ -1,6 +1,6 @@
 //! The server: address, routes and connections.
 
-use std::{future, io, net::SocketAddr, sync::Arc, time::Duration};
+use std::{future, io, net::SocketAddr, pin::pin, sync::Arc, time::Duration};
 
 use axum::{
     Extension, Router,
@@ -209,12 +209,26 @@ async fn serve(stream: TcpStream, place: Place, routes: Router) {
             future::pending::<()>().await;
         }
     };
+    let mut connection = pin!(connection);
+    let mut ended = pin!(async {
+        tokio::select! {
+            () = line.is_left(&watched) => {}
+            () = introduction => {}
+        }
+    });
     // A broken connection needs no action.
     tokio::select! {
         biased;
+        _ = &mut connection => return,
+        () = &mut ended => return,
+        () = place.is_wanted(&line) => {}
+    }
+    // What is asked for is answered; then it closes.
+    connection.as_mut().graceful_shutdown();
+    tokio::select! {
+        biased;
         _ = connection => {}
-        () = line.is_left(&watched) => {}
-        () = introduction => {}
+        () = ended => {}
     }
 }
 

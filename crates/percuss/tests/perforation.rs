@@ -78,10 +78,13 @@ fn a_band_of_its_own_width_makes_the_residual_velocity_independent_of_the_mesh()
     .map(|(cells, axi)| weldox("flat", 300.0, cells, axi).outcome);
     assert_eq!(whole, [Outcome::Rebounded, Outcome::Perforated]);
     println!("blunt {blunt:.1?} m/s, round {round:.1?}");
+    // Ten meshes of 5 to 16 cells scatter by −5.5 to +4.2 % about their mean of 186.6 m/s, without a trend (11 cells are the lowest).
+    let mean = blunt.iter().sum::<f64>() / 3.0;
     for velocity in blunt {
-        assert!((velocity / blunt[2] - 1.0).abs() < 0.05);
+        assert!((velocity / mean - 1.0).abs() < 0.06);
     }
-    assert!((round[0] / round[1] - 1.0).abs() < 0.2);
+    // 135, 126, 126, 125, 121 m/s on 8, 11, 12, 14, 16 cells.
+    assert!((round[0] / round[1] - 1.0).abs() < 0.1);
 }
 
 #[test]

@@ -34,6 +34,26 @@ fn reason(validity: &ValidityDomain, scenario: &Scenario) -> String {
     }
 }
 
+/// A column is pushed out of a free face, or into a gap, as a whole, where a plate would be pierced.
+#[test]
+fn a_target_that_is_pushed_out_and_holds_is_no_result() {
+    use percuss::validity::pushed_column_warning;
+    let warned = |target: &str, depth: f64| {
+        pushed_column_warning(&scenario(target, "'flat'", 200.0), Some(depth)).is_some()
+    };
+    let free = "material = 'rod', thickness = '10 mm', back_face = 'free'";
+    assert!(warned(free, 6e-3) && !warned(free, 4e-3));
+    let gap = "layers = [{ material = 'rod', thickness = '4 mm' }, { material = 'rod', thickness = '40 mm', gap = '1 mm' }]";
+    assert!(warned(gap, 3e-3) && !warned(gap, 1e-3));
+    for held in [
+        "material = 'rod', thickness = '10 mm', back_face = 'fixed'",
+        "material = 'rod', thickness = 'semi-infinite'",
+        "rigid_wall = true",
+    ] {
+        assert!(!warned(held, 9e-3), "{held}");
+    }
+}
+
 const PLATE: &str = "material = 'rod', thickness = '30 mm'";
 
 #[test]

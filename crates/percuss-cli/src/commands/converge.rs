@@ -74,7 +74,7 @@ pub struct Converge {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
-    figures: FigureArgs,
+    pub figures: FigureArgs,
 }
 
 /// Result of the command and the files that it wrote.

@@ -1,9 +1,9 @@
 //! A text with the name of its file, and where in it something is wrong.
 
 mod error_messages;
-mod long_texts;
 mod renamed;
 mod text_file;
+mod texts;
 
 use std::{
     ops::Range,
@@ -99,7 +99,7 @@ impl Document {
     /// [`Error::Input`] with the place of what does not fit.
     pub fn parse<T: serde::de::DeserializeOwned>(&self) -> Result<T, Error> {
         let value = toml::from_str(&self.text).map_err(|error| self.parse_error(&error))?;
-        self.report(long_texts::diagnostics(&self.text))?;
+        self.report(texts::diagnostics(&self.text))?;
         Ok(value)
     }
 

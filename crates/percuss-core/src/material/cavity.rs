@@ -80,10 +80,15 @@ fn expansion_pressure(material: &Material, exponent: f64) -> Option<f64> {
         let strain = x.exp().max(yield_strain);
         stress(strain) * strain / (exponent * strain).exp_m1()
     };
+    // The end of a panel is mostly the start of the next one to the last bit.
+    let (mut end, mut at_end) = (f64::NAN, f64::NAN);
     let sum: f64 = (0..PANELS)
         .map(|i| {
             let x = from + f64::from(i) * step;
-            integrand(x) + 4.0 * integrand(x + step / 2.0) + integrand(x + step)
+            let at_start = if x == end { at_end } else { integrand(x) };
+            end = x + step;
+            at_end = integrand(end);
+            at_start + 4.0 * integrand(x + step / 2.0) + at_end
         })
         .sum();
     Some(yield_stress / exponent + sum * step / 6.0)

@@ -46,7 +46,9 @@ crate::per_lane! {
 }
 
 impl LaneTrial {
-    fn new(start: &FlowState, trial: &Trial) -> Self {
+    /// Of a trial stress and the state that it starts from.
+    #[inline(always)]
+    pub fn new(start: &FlowState, trial: &Trial) -> Self {
         Self {
             stress: trial.stress,
             modulus: trial.modulus,

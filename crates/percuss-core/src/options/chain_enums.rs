@@ -84,3 +84,11 @@ pub struct ArtificialViscosity {
     /// Quadratic coefficient c_q.
     pub quadratic: f64,
 }
+
+impl ArtificialViscosity {
+    /// Whether there is none.
+    #[inline]
+    pub fn is_none(self) -> bool {
+        self.linear == 0.0 && self.quadratic == 0.0
+    }
+}

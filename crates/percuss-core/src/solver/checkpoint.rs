@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Error, Scenario, scenario::Given};
 
-/// First bytes of every checkpoint.
-const MAGIC: &[u8] = b"percuss checkpoint\n";
+/// First bytes of every checkpoint, by which a file is known as one.
+pub const CHECKPOINT_START: &[u8] = b"percuss checkpoint\n";
 /// Raised whenever the content changes its form.
 const FORMAT: u32 = 9;
 
@@ -55,7 +55,7 @@ pub(super) fn seal(
     };
     header.checksum = checksum(&header, content)?;
     let encoded = encode(&header)?;
-    Ok([MAGIC, &encoded, content].concat())
+    Ok([CHECKPOINT_START, &encoded, content].concat())
 }
 
 fn encode(header: &Header) -> Result<Vec<u8>, Error> {
@@ -78,7 +78,7 @@ pub(super) fn open<'a>(
     scenario: &Scenario,
 ) -> Result<(Header, &'a [u8]), Error> {
     const RESTART: &str = "start again without `--resume`";
-    let Some(rest) = bytes.strip_prefix(MAGIC) else {
+    let Some(rest) = bytes.strip_prefix(CHECKPOINT_START) else {
         return Err(refused("it is no checkpoint of percuss", RESTART));
     };
     // The form of the header depends on the format, which therefore comes first.

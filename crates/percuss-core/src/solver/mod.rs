@@ -22,6 +22,7 @@ use crate::{
     validity::{Applicability, ValidityDomain},
 };
 
+pub use checkpoint::CHECKPOINT_START;
 pub(crate) use control::go_on;
 pub use control::{Checkpoints, Control, OnFrame, Progress};
 pub use courant_retry::AttemptError;

@@ -145,7 +145,8 @@ fn source<'a>(
                 "" => place.to_owned(),
                 remedy => format!("{remedy}; {place}"),
             };
-            Err(refuse(&message, &help))
+            let diagnostic = Diagnostic::at(&format!("{key}.file"), message, help);
+            Err(document.place(diagnostic.of_case_file()).into())
         }
     }
 }

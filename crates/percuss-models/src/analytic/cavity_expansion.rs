@@ -1,5 +1,7 @@
 //! Dynamic expansion of a spherical cavity in a compressible elastic, perfectly plastic body: the similarity solution.
 
+use std::{cell::RefCell, collections::VecDeque};
+
 use crate::material::{Material, cavity_expansion_pressure};
 
 /// Steps of the integration from the elastic-plastic interface to the cavity: the pressure is good to 1e-6 up to half of
@@ -55,6 +57,21 @@ struct AtCavity {
     pressure: f64,
 }
 
+/// [`CavityExpansion::extents`] of a body.
+struct Extents {
+    body: CavityExpansion,
+    steps: u32,
+    extents: Vec<(f64, f64)>,
+}
+
+/// Bodies whose extents are remembered.
+const MOST_EXTENTS: usize = 16;
+
+thread_local! {
+    /// The last extents, the latest first.
+    static EXTENTS: RefCell<VecDeque<Extents>> = const { RefCell::new(VecDeque::new()) };
+}
+
 impl CavityExpansion {
     /// The body of a material, perfectly plastic at [`effective_yield_stress`]; `None` for a law that never flows.
     pub fn of(material: &Material) -> Option<Self> {
@@ -92,16 +109,21 @@ impl CavityExpansion {
 
     /// Radial stress at a cavity that expands at a speed [m/s] [Pa]; `None` above [`Self::largest_speed`].
     pub fn pressure(&self, speed: f64) -> Option<f64> {
+        self.pressure_below(self.largest_speed(), speed)
+    }
+
+    /// The same where the largest speed is known [m/s].
+    fn pressure_below(&self, largest_speed: f64, speed: f64) -> Option<f64> {
         if speed <= 0.0 {
             return Some(self.static_pressure());
         }
-        self.interface_speed(speed)
-            .map(|interface| self.at_cavity(interface).pressure)
+        self.at_speed(largest_speed, speed).map(|at| at.pressure)
     }
 
     /// Largest expansion speed without a plastic shock that the solution is used at [m/s].
     pub fn largest_speed(&self) -> f64 {
-        self.speed(LARGEST_INTERFACE_SPEED)
+        let at = self.at_cavity(LARGEST_INTERFACE_SPEED);
+        self.speed(at, LARGEST_INTERFACE_SPEED)
     }
 
     /// Fits `A Y + B ρ v²` over expansion speeds from zero to `speed` [m/s], or to [`Self::largest_speed`] if that is less.
@@ -111,11 +133,13 @@ impl CavityExpansion {
     pub fn fit(&self, speed: f64) -> CavityFit {
         let strength = self.static_pressure();
         let slowest = 1e-3 * self.bulk_sound_speed();
-        let largest_speed = speed.max(slowest).min(self.largest_speed());
+        let fastest = self.largest_speed();
+        let largest_speed = speed.max(slowest).min(fastest);
         let points: Vec<(f64, f64)> = (1..=FIT_SPEEDS)
             .filter_map(|i| {
                 let speed = largest_speed * f64::from(i) / f64::from(FIT_SPEEDS);
-                Some((self.density * speed * speed, self.pressure(speed)?))
+                let pressure = self.pressure_below(fastest, speed)?;
+                Some((self.density * speed * speed, pressure))
             })
             .collect();
         let product: f64 = points.iter().map(|(x, p)| x * (p - strength)).sum();
@@ -134,7 +158,26 @@ impl CavityExpansion {
     }
 
     /// Expansion speeds [m/s] and radii of the interface over those of the cavity, for interface speeds from zero to the largest, evenly spaced.
+    ///
+    /// Remembered: runs of a study mostly have the same target.
     pub(super) fn extents(&self, steps: u32) -> Vec<(f64, f64)> {
+        EXTENTS.with_borrow_mut(|known| {
+            let is_it = |of: &Extents| of.body == *self && of.steps == steps;
+            let place = known.iter().position(is_it);
+            let entry = place.and_then(|place| known.remove(place));
+            let entry = entry.unwrap_or_else(|| Extents {
+                body: *self,
+                steps,
+                extents: self.integrate_extents(steps),
+            });
+            let extents = entry.extents.clone();
+            known.push_front(entry);
+            known.truncate(MOST_EXTENTS);
+            extents
+        })
+    }
+
+    fn integrate_extents(&self, steps: u32) -> Vec<(f64, f64)> {
         let of = |i: u32| {
             let interface = LARGEST_INTERFACE_SPEED * f64::from(i) / f64::from(steps);
             let ratio = self.at_cavity(interface).ratio;
@@ -144,24 +187,24 @@ impl CavityExpansion {
     }
 
     /// Expansion speed [m/s] for an interface speed over the bulk sound speed.
-    fn speed(&self, interface: f64) -> f64 {
-        self.at_cavity(interface).ratio * interface * self.bulk_sound_speed()
+    fn speed(&self, at: AtCavity, interface: f64) -> f64 {
+        at.ratio * interface * self.bulk_sound_speed()
     }
 
-    /// Interface speed over the bulk sound speed for an expansion speed [m/s]: regula falsi, Illinois form.
-    fn interface_speed(&self, speed: f64) -> Option<f64> {
-        let miss = |interface: f64| self.speed(interface) / speed - 1.0;
+    /// Solution for an expansion speed up to the largest one [m/s], by its interface speed: regula falsi, Illinois form.
+    fn at_speed(&self, largest_speed: f64, speed: f64) -> Option<AtCavity> {
         let (mut low, mut high) = (0.0, LARGEST_INTERFACE_SPEED);
-        let (mut below, mut above) = (-1.0, miss(high));
+        let (mut below, mut above) = (-1.0, largest_speed / speed - 1.0);
         // The largest speed itself may miss by rounding.
         if above < -ROOT_TOLERANCE {
             return None;
         }
         for _ in 0..ROOT_STEPS {
             let middle = (low * above - high * below) / (above - below);
-            let value = miss(middle);
+            let at = self.at_cavity(middle);
+            let value = self.speed(at, middle) / speed - 1.0;
             if value.abs() < ROOT_TOLERANCE {
-                return Some(middle);
+                return Some(at);
             }
             if value < 0.0 {
                 (low, below) = (middle, value);
@@ -171,7 +214,7 @@ impl CavityExpansion {
                 below /= 2.0;
             }
         }
-        Some(f64::midpoint(low, high))
+        Some(self.at_cavity(f64::midpoint(low, high)))
     }
 
     /// Integrates from the interface to the cavity.

@@ -156,6 +156,7 @@ impl Element {
     }
 
     /// Returns a trial stress to the yield surface.
+    #[inline(always)]
     pub(super) fn flow(&mut self, part: &Section, time_step: f64) {
         let trial = self.spring.stress;
         let increment = self.yield_point.plastic_increment(

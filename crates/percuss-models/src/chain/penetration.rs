@@ -6,6 +6,7 @@
 //! undisturbed target ahead of it. What the tip meets with the speed w is turned aside and pushes back on it with `½ρ_t w²`, as in
 //! the equation of Alekseevskii and Tate.
 
+use pulp::{Arch, NullaryFnOnce};
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -155,6 +156,25 @@ impl State {
     }
 }
 
+/// Force of an element at another length [N], compiled once for every instruction set.
+struct ForceAt<'a> {
+    trial: Element,
+    part: &'a Section,
+    length: f64,
+    time_step: f64,
+}
+
+impl NullaryFnOnce for ForceAt<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let mut trial = self.trial;
+        trial.deform(self.part, self.length, self.time_step);
+        trial.axial_force
+    }
+}
+
 impl Element {
     /// Advances the tip over a time step as far as the limit asks, the ends of the element being a distance apart, and returns the
     /// plastic work around the cavity between the half steps around the current time [J].
@@ -179,19 +199,25 @@ impl Element {
             if length <= 0.0 {
                 return f64::INFINITY;
             }
-            let mut trial = *self;
-            trial.deform(part, length, time_step);
-            trial.axial_force - limit.force
+            let force = Arch::new().dispatch(ForceAt {
+                trial: *self,
+                part,
+                length,
+                time_step,
+            });
+            force - limit.force
         };
-        if excess(0.0) <= 0.0 {
+        let mut over = excess(0.0);
+        if over <= 0.0 {
             return 0.0;
         }
         let (mut low, mut high) = (0.0, 1e-3 * self.rest_length);
-        while excess(high) > 0.0 {
-            low = high;
+        let mut under = excess(high);
+        while under > 0.0 {
+            (low, over) = (high, under);
             high *= 2.0;
+            under = excess(high);
         }
-        let (mut over, mut under) = (excess(low), excess(high));
         // Regula falsi, with the weight of an end that stays halved.
         let mut kept = 0;
         for _ in 0..60 {

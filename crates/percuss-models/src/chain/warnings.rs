@@ -10,7 +10,7 @@ use crate::{
     problem::RearFaceCondition,
     scenario::{Plate, Scenario, TargetBody, modelled_thickness},
     units::{StrainRate, Temperature, Velocity, significant},
-    validity::fixed_rear_face_warning,
+    validity::{fixed_rear_face_warning, pushed_column_warning},
 };
 
 const OUT_OF_TIME: &str =
@@ -39,7 +39,9 @@ pub(super) fn warnings(
              velocity is indicative"
                 .to_owned(),
         ),
-        _ => {}
+        // With a shear band the border fails, and perforation is a result.
+        _ if scenario.options.chain.shear_band.is_some() => {}
+        _ => warnings.extend(pushed_column_warning(scenario, result.depth_of_penetration)),
     }
     warnings.extend(fixed_rear_face_warning(scenario));
     warn_of_plug(scenario, result, &mut warnings);
@@ -161,7 +163,8 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
         .sum();
     let element = thickness / scenario.options.chain.target_elements() as f64;
     let (permanent, at_rest) = (result.permanent_depth, result.time_to_rest.is_some());
-    if at_rest && permanent.is_some_and(|permanent| depth > 2.0 * permanent) {
+    let is_whole = layers.iter().all(|plate| plate.gap == 0.0);
+    if is_whole && at_rest && permanent.is_some_and(|permanent| depth > 2.0 * permanent) {
         warnings.push(format!(
             "most of the depth is elastic deflection, which springs back: {} mm are permanent",
             significant(permanent.unwrap_or(0.0) * 1e3, 3)

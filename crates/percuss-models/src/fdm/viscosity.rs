@@ -10,7 +10,7 @@ pub(super) fn viscous_pressure(
     sound_speed: f64,
     approach: f64,
 ) -> f64 {
-    if approach <= 0.0 {
+    if viscosity.is_none() || approach <= 0.0 {
         return 0.0;
     }
     density * approach * (viscosity.quadratic * approach + viscosity.linear * sound_speed)

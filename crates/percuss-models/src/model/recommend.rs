@@ -43,28 +43,35 @@ impl Choice {
 /// Whether a model gives a result, and why if it does not.
 pub(super) type Given<'a> = Result<(), &'a str>;
 
-/// First choices for a regime: those that gave a result, and the others with the reason why not.
-struct FirstChoices<'a> {
+/// First choices for a regime: those that gave a result within their ranges of validity, those that gave one outside, and the others with the
+/// reason why not.
+struct FirstChoices {
     given: Vec<Choice>,
-    missed: Vec<(&'static str, &'a str)>,
+    outside: Vec<(Choice, String)>,
+    missed: Vec<(&'static str, String)>,
 }
 
-impl<'a> FirstChoices<'a> {
+impl FirstChoices {
     fn of(
         models: &[&dyn Model],
         scenario: &Scenario,
         regime: &Regime,
-        results: &[Given<'a>],
+        results: &[Given<'_>],
     ) -> Self {
         let mut choices = Self {
             given: Vec::new(),
+            outside: Vec::new(),
             missed: Vec::new(),
         };
         for (model, result) in models.iter().zip(results) {
-            match (Choice::of(*model, scenario, regime), result) {
-                (Some(choice), Ok(())) => choices.given.push(choice),
-                (Some(choice), Err(reason)) => choices.missed.push((choice.model, reason)),
-                (None, _) => {}
+            let Some(choice) = Choice::of(*model, scenario, regime) else {
+                continue;
+            };
+            let mut ranges = model.validity().ranges.iter();
+            match (result, ranges.find_map(|range| range.diagnostic(scenario))) {
+                (Ok(()), None) => choices.given.push(choice),
+                (Ok(()), Some(reason)) => choices.outside.push((choice, reason)),
+                (Err(reason), _) => choices.missed.push((choice.model, (*reason).to_owned())),
             }
         }
         choices
@@ -78,7 +85,7 @@ pub fn recommend(
     regime: &Regime,
     results: &[Given<'_>],
 ) -> Recommendation {
-    let own = FirstChoices::of(models, scenario, regime, results);
+    let mut own = FirstChoices::of(models, scenario, regime, results);
     let neighbour: Option<(ProjectileRegime, Vec<Choice>)> = regime.neighbour.map(|neighbour| {
         let regime = Regime {
             projectile: neighbour,
@@ -89,6 +96,13 @@ pub fn recommend(
         (neighbour, choices)
     });
     let neighbour = neighbour.filter(|(_, choices)| !choices.is_empty());
+    if own.given.is_empty() && neighbour.is_none() {
+        // Nothing better: their results come with a warning.
+        own.given = own.outside.drain(..).map(|(choice, _)| choice).collect();
+    }
+    let outside = own.outside.into_iter();
+    own.missed
+        .extend(outside.map(|(choice, reason)| (choice.model, reason)));
     let mut notes: Vec<String> = own
         .missed
         .iter()
@@ -106,7 +120,7 @@ pub fn recommend(
         }
         (true, Some((kind, choices))) => {
             notes.push(format!(
-                "no first choice for {} projectiles gives a result here; the projectile may also be {}",
+                "no first choice for {} projectiles gives a result within its range here; the projectile may also be {}",
                 regime.projectile.describe(),
                 kind.describe()
             ));

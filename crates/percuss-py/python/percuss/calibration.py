@@ -181,6 +181,7 @@ def calibrate(
     name: str | None = None,
     out: Path | None = None,
     figures: str | Sequence[str] | None = None,
+    figure_width: str | None = None,
     progress: Progress | bool | None = None,
 ) -> Calibration:
     """Calibrates material constants and model options against experiments.
@@ -220,6 +221,8 @@ def calibrate(
         Folder for the numbers, the calibrated materials and the figures, as ``percuss calibrate --out`` writes them; made if it does not exist.
     figures : str or sequence of str, optional
         Formats of the figures in ``out``: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
+    figure_width : str, optional
+        Width of the figures in print, 60 mm to 182 mm; ``"88 mm"`` fits a column of a journal. 182 mm when not given.
     progress : callable or bool, optional
         As in :func:`percuss.run`.
 
@@ -269,6 +272,7 @@ def calibrate(
         name=name,
         out=out,
         figures=formats(figures),
+        figure_width=figure_width,
         progress=progress,
     )
     return Calibration(found)

@@ -25,6 +25,7 @@ def run(
     history: bool = True,
     out: Path | None = None,
     figures: str | Sequence[str] | None = None,
+    figure_width: str | None = None,
     field: str | None = None,
     fields: bool = False,
     animation: bool = False,
@@ -60,6 +61,8 @@ def run(
         one of them (``field.png``). ``result.files`` lists the files.
     figures : str or sequence of str, optional
         Formats of the figures in ``out``: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
+    figure_width : str, optional
+        Width of the figures in print, 60 mm to 182 mm; ``"88 mm"`` fits a column of a journal. 182 mm when not given.
     field : str, optional
         Field that the pictures show: ``plastic-strain`` (when not given), ``temperature``, ``von-mises-stress``, ``pressure``, ``speed``,
         ``density`` or ``damage``.
@@ -122,6 +125,7 @@ def run(
         raise UsageError("`reference` needs laws of the library: leave it out, or add the law to the library")
     written: dict[str, Any] = {"field": field, "fields": fields, "animation": animation, "frames": frames, "resume": resume, "seeds": seeds, "units": units}
     written["figures"] = formats(figures)
+    written["figure_width"] = figure_width
     if out is not None or checkpoint is not None or any(value not in (None, False) for value in written.values()):
         if any(law is not None for law in laws):
             raise UsageError("files can be written only for runs with laws of the library: leave out `out`, or add the law to the library")
@@ -149,6 +153,7 @@ def compare(
     fast: bool = False,
     out: Path | None = None,
     figures: str | Sequence[str] | None = None,
+    figure_width: str | None = None,
     units: str | None = None,
     progress: Progress | bool | None = None,
 ) -> Comparison:
@@ -171,6 +176,8 @@ def compare(
         Folder for a copy of the case, the numbers and the figure, as ``percuss compare --out`` writes them; made if it does not exist.
     figures : str or sequence of str, optional
         Formats of the figures in ``out``: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
+    figure_width : str, optional
+        Width of the figures in print, 60 mm to 182 mm; ``"88 mm"`` fits a column of a journal. 182 mm when not given.
     units : str, optional
         Unit system of the tables in ``out``, as in :func:`run`.
     progress : callable or bool, optional
@@ -191,6 +198,7 @@ def compare(
         fast=fast,
         out=out,
         figures=formats(figures),
+        figure_width=figure_width,
         units=units,
         progress=progress,
     )
@@ -210,6 +218,7 @@ def limit(
     span: Speed | None = None,
     out: Path | None = None,
     figures: str | Sequence[str] | None = None,
+    figure_width: str | None = None,
     progress: Progress | bool | None = None,
 ) -> Limits:
     """Finds the ballistic limit of a case with all applicable models, or V50 from test results.
@@ -239,6 +248,8 @@ def limit(
         Folder for a copy of the case, the numbers and the figures, as ``percuss limit --out`` writes them; made if it does not exist.
     figures : str or sequence of str, optional
         Formats of the figures in ``out``: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
+    figure_width : str, optional
+        Width of the figures in print, 60 mm to 182 mm; ``"88 mm"`` fits a column of a journal. 182 mm when not given.
     progress : callable or bool, optional
         As in :func:`run`.
 
@@ -263,6 +274,7 @@ def limit(
         span=with_unit(span),
         out=out,
         figures=formats(figures),
+        figure_width=figure_width,
         progress=progress,
     )
     return Limits(found)
@@ -275,6 +287,7 @@ def converge(
     levels: int | None = None,
     out: Path | None = None,
     figures: str | Sequence[str] | None = None,
+    figure_width: str | None = None,
     progress: Progress | bool | None = None,
 ) -> Convergence:
     """Refines the mesh of a case and assesses its convergence.
@@ -291,6 +304,8 @@ def converge(
         Folder for the study and its figures, as ``percuss converge --out`` writes them; made if it does not exist.
     figures : str or sequence of str, optional
         Formats of the figures in ``out``: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
+    figure_width : str, optional
+        Width of the figures in print, 60 mm to 182 mm; ``"88 mm"`` fits a column of a journal. 182 mm when not given.
     progress : callable or bool, optional
         As in :func:`run`.
 
@@ -300,7 +315,7 @@ def converge(
     >>> [mesh.projectile_elements for mesh in study.meshes]
     [40, 80, 160]
     """
-    return Convergence(execute("converge", of=case, model=model, levels=levels, out=out, figures=formats(figures), progress=progress))
+    return Convergence(execute("converge", of=case, model=model, levels=levels, out=out, figures=formats(figures), figure_width=figure_width, progress=progress))
 
 
 def export(case: CaseLike, *, to: str, out: Path) -> dict[str, Any]:

@@ -119,6 +119,7 @@ def flow_curves(
     file: Path | None = None,
     out: Path | None = None,
     figures: str | Sequence[str] | None = None,
+    figure_width: str | None = None,
 ) -> Records[Record]:
     """Computes the flow curves of materials: stress against plastic strain at constant strain rates and one temperature.
 
@@ -136,6 +137,8 @@ def flow_curves(
         Folder for the curves and their figure; made if it does not exist.
     figures : str or sequence of str, optional
         Formats of the figures in ``out``: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
+    figure_width : str, optional
+        Width of the figures in print, 60 mm to 182 mm; ``"88 mm"`` fits a column of a journal. 182 mm when not given.
 
     Returns
     -------
@@ -152,7 +155,7 @@ def flow_curves(
     >>> round(slow.flow_stress_mpa[0])
     90
     """
-    curves = answer("materials compare", *names, rate=rate, temperature=temperature, case=case, file=file, out=out, figures=formats(figures))
+    curves = answer("materials compare", *names, rate=rate, temperature=temperature, case=case, file=file, out=out, figures=formats(figures), figure_width=figure_width)
     return Records(map(Record, curves), "material", "strain_rate_per_s", "temperature_k")
 
 

@@ -148,6 +148,7 @@ def uncertainty(
     threads: int | None = None,
     out: Path | None = None,
     figures: str | Sequence[str] | None = None,
+    figure_width: str | None = None,
     progress: Progress | bool | None = None,
     projectile_law: StrengthLaw | None = None,
     target_law: StrengthLaw | None = None,
@@ -179,6 +180,8 @@ def uncertainty(
         Folder for a copy of the case, the numbers and the figures, as ``percuss uncertainty --out`` writes them; made if it does not exist.
     figures : str or sequence of str, optional
         Formats of the figures in ``out``: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
+    figure_width : str, optional
+        Width of the figures in print, 60 mm to 182 mm; ``"88 mm"`` fits a column of a journal. 182 mm when not given.
     progress : callable or bool, optional
         As in :func:`percuss.run`.
     projectile_law, target_law : callable, optional
@@ -223,6 +226,7 @@ def uncertainty(
         threads=threads,
         out=out,
         figures=formats(figures),
+        figure_width=figure_width,
         progress=progress,
         laws=(projectile_law, target_law, own),
     )

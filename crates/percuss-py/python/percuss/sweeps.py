@@ -233,6 +233,7 @@ def plot(
     *,
     out: Path | None = None,
     figures: str | Sequence[str] | None = None,
+    figure_width: str | None = None,
     quantity: str | None = None,
     style: str | None = None,
     x: str | None = None,
@@ -248,6 +249,8 @@ def plot(
         Folder for the figure; the first of the folders of results when not given.
     figures : str or sequence of str, optional
         Formats of the figure: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
+    figure_width : str, optional
+        Width of the figures in print, 60 mm to 182 mm; ``"88 mm"`` fits a column of a journal. 182 mm when not given.
     quantity : str, optional
         Column of the result to draw.
     style : str, optional
@@ -260,7 +263,7 @@ def plot(
     UsageError
         When the folders hold no rows, or what is asked for does not fit the sweep.
     """
-    return Drawing(execute("sweep plot", *several(folders), out=out, figures=formats(figures), quantity=quantity, style=style, x=x, y=y))
+    return Drawing(execute("sweep plot", *several(folders), out=out, figures=formats(figures), figure_width=figure_width, quantity=quantity, style=style, x=x, y=y))
 
 
 def _written(sweep: Mapping[str, Any], out: FilePath) -> FilePath:

@@ -6,7 +6,7 @@ use super::{
     ParameterColumn,
     panel::{HEADS, Panel},
 };
-use crate::{Figure, drawing::Drawing, frame::WIDTH, palette};
+use crate::{Figure, drawing::Drawing, figure_width, palette};
 
 /// Height of a panel and of what stands above and below all [px].
 const PANEL: f64 = 170.0;
@@ -20,9 +20,10 @@ const POINTS: usize = 800;
 
 /// Draws the first walker of each ensemble over the steps, as `trace`.
 pub(super) fn figure(sample: &Sample, columns: &[ParameterColumn]) -> Figure {
+    let wide = figure_width::pixels();
     let count = columns.len() as f64;
     let height = ABOVE + count * PANEL + (count - 1.0) * GAP + BELOW;
-    let mut drawing = Drawing::new(WIDTH, height);
+    let mut drawing = Drawing::new(wide, height);
     let sampling = sample.sampling;
     let steps = sampling.burn_in + sampling.steps;
     for (row, column) in columns.iter().enumerate() {
@@ -46,7 +47,7 @@ pub(super) fn figure(sample: &Sample, columns: &[ParameterColumn]) -> Figure {
         let panel = Panel {
             left: 92.0,
             top: ABOVE + row as f64 * (PANEL + GAP),
-            width: WIDTH - 92.0 - 24.0,
+            width: wide - 92.0 - 24.0,
             height: PANEL,
             x: (0.0, steps as f64),
             y: (low - margin, high + margin),

@@ -21,7 +21,9 @@ use super::{
     span::{FieldSpan, usual_range},
     vtp_points::{self, Points},
 };
-use crate::{ReportError, caption::caption, png_file, replace_file::replace_file};
+use crate::{
+    ReportError, caption::caption, figure::SpareMemory, png_file, replace_file::replace_file,
+};
 
 /// Pixels of the picture at the end and of those of an animation per SVG user unit.
 const PICTURE_SCALE: f32 = 1.5;
@@ -46,7 +48,11 @@ pub(super) fn write(
     let folder = path.parent().unwrap_or(path);
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let name = format!("{name}.png");
-    replace_file(folder, &name, &png_file::encode(&name, &picture)?)
+    replace_file(
+        folder,
+        &name,
+        &png_file::encode(&name, picture, &SpareMemory::default())?,
+    )
 }
 
 /// Draws every frame of a series as `frames/frame-NNNNN.png`, and all of them as `animation.gif`. `progress` hears the part done, 0 to
@@ -79,9 +85,9 @@ pub fn animate(
         .map(|(number, file)| {
             let picture = canvas.picture(&read(file, quantity)?, &base, ANIMATION_SCALE)?;
             let name = format!("frame-{number:05}.png");
-            let png = png_file::encode(&name, &picture)?;
-            replace_file(&pictures, &name, &png)?;
             let indexed = palette.index(&picture);
+            let png = png_file::encode(&name, picture, &SpareMemory::default())?;
+            replace_file(&pictures, &name, &png)?;
             if let Ok(mut progress) = progress.lock() {
                 progress.0 += 1;
                 let part = f64::from(progress.0) / files.len() as f64;

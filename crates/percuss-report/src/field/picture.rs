@@ -12,7 +12,8 @@ use crate::{
     Axis, Figure, ReportError,
     caption::significant,
     color_bar::{self, ColorBar},
-    frame::{Frame, Head, WIDTH},
+    figure_width,
+    frame::{Frame, Head},
     pixels::draw_over,
 };
 
@@ -109,8 +110,9 @@ impl Canvas {
                 top + 31.0
             );
         }
+        let wide = figure_width::pixels();
         format!(
-            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{total}" font-family="DejaVu Sans">{lines}</svg>"#
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{wide}" height="{total}" font-family="DejaVu Sans">{lines}</svg>"#
         )
     }
 }

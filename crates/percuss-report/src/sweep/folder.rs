@@ -11,7 +11,7 @@ use bytes::Bytes;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use percuss::{
     cost,
-    input_file::{self, MAX_OWN_BYTES},
+    input_file::{self, MAX_BLOCK_BYTES, MAX_OWN_BYTES},
     sweep::{Kernel, Sweep, SweepRow},
 };
 use rayon::prelude::*;
@@ -275,7 +275,7 @@ pub(super) enum State {
 
 /// What there is of a block. Its checksum tells whether a byte was lost or changed, its name whether it is this block.
 pub(super) fn state(folder: &Path, manifest: &Manifest, block: u64) -> State {
-    let content = match input_file::bytes(&folder.join(block_file(block)), MAX_OWN_BYTES) {
+    let content = match input_file::bytes(&folder.join(block_file(block)), MAX_BLOCK_BYTES) {
         Ok(content) => content,
         Err(error) if error.kind() == ErrorKind::NotFound => return State::Missing,
         Err(_) => return State::Damaged,

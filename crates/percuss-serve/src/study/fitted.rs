@@ -14,6 +14,7 @@ use percuss::{
         Stages,
     },
     case::Document,
+    units::shorten,
 };
 use percuss_report::calibration;
 use serde_json::json;
@@ -50,9 +51,9 @@ pub(super) fn fitted(job: &Job<'_>) -> Result<Study, Problem> {
         seed,
         hold_out,
     } = &asked.fit;
-    let noise: Noise = noise
-        .parse()
-        .map_err(|help: &str| Problem::refused(format!("`{noise}` is no scatter"), help))?;
+    let noise: Noise = noise.parse().map_err(|help: &str| {
+        Problem::refused(format!("`{}` is no scatter", shorten(noise)), help)
+    })?;
     if let Some(steps) = steps
         && !STEPS.contains(steps)
     {

@@ -1,7 +1,7 @@
 //! Clients that hold connections without reading or without a token do not lock others out.
 
 use std::{
-    io::{ErrorKind, Write},
+    io::{ErrorKind, Read, Write},
     net::{SocketAddr, TcpStream},
     thread,
     time::{Duration, Instant},
@@ -66,6 +66,46 @@ fn clients_that_do_not_read_are_given_up() {
     let time = answered(&served, "");
     println!("{} connections held, answered after {time:?}", held.len());
     drop(held);
+}
+
+/// Connections that ask, read and stay open.
+fn stay(served: &Served, count: usize, status: u32) -> Vec<TcpStream> {
+    let request = format!(
+        "GET /assets/none HTTP/1.1\r\nHost: {}\r\n\r\n",
+        served.address
+    );
+    let connect = |_| {
+        let mut stream = TcpStream::connect(served.address).unwrap();
+        stream.write_all(request.as_bytes()).unwrap();
+        // It stays open after the response: there is no end to read to.
+        let mut start = [0; 12];
+        stream.read_exact(&mut start).unwrap();
+        assert_eq!(start, format!("HTTP/1.1 {status}").as_bytes());
+        stream
+    };
+    (0..count).map(connect).collect()
+}
+
+#[test]
+fn clients_that_stay_give_way() {
+    let served = Served::new(Options::default());
+    let held = stay(&served, 256, 404);
+    let time = answered(&served, "");
+    println!("{} connections stay, answered after {time:?}", held.len());
+    assert!(time < Duration::from_secs(5), "{time:?}");
+}
+
+#[test]
+fn clients_that_stay_without_the_token_give_way() {
+    let token = "0123456789abcdef0123456789abcdef";
+    let served = Served::new(Options {
+        token: Some(token.to_owned()),
+        ..Options::default()
+    });
+    let held = stay(&served, 192, 401);
+    let time = answered(&served, &format!("Cookie: percuss_token={token}\r\n"));
+    println!("{} connections stay, answered after {time:?}", held.len());
+    assert!(time < Duration::from_secs(5), "{time:?}");
 }
 
 /// The same with and without the token.

@@ -73,6 +73,8 @@ fn a_token_is_asked_for_everywhere() {
             .head
             .contains("location: /elsewhere")
     );
+    let slash = served.get(&format!("/\\elsewhere.example/?token={TOKEN}"), "");
+    assert!(!slash.head.contains("location: /\\"), "{}", slash.head);
     let cookie = format!("Cookie: other=1; percuss_token={TOKEN}\r\n");
     assert_eq!(served.get("/", &cookie).status, 200);
     assert_eq!(

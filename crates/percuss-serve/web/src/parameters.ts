@@ -54,10 +54,15 @@ export class Numbers {
       groups.set(title, group);
       // What tells constants of a material apart comes first: a list has little room.
       const words = table === "materials" ? rest.reverse().join(", ") : [table, ...rest].join(" ");
-      group.append(make("option", { value: key }, words.replaceAll("_", " ")));
+      group.append(make("option", { value: key }, inWords(words)));
     }
     return [...groups.values()];
   }
+}
+
+// Keys as words: youngs_modulus is Young's modulus.
+function inWords(keys: string): string {
+  return keys.replaceAll("_", " ").replace("youngs", "Young's").replace("poissons", "Poisson's");
 }
 
 // Range around a value; none where the value is not a number.

@@ -10,6 +10,7 @@ use crate::{
     experiments::{Experiment, Struck},
     material::{Library, MaterialEntry},
     outcome::BandQuantity,
+    units::shorten,
 };
 
 /// A measured value and the case that has to give it.
@@ -175,7 +176,7 @@ impl Observations {
     pub fn no_source(&self, key: &str) -> Error {
         let known = self.sources().join(", ");
         refuse(
-            format!("no measured value comes from `{key}`"),
+            format!("no measured value comes from `{}`", shorten(key)),
             match known.as_str() {
                 "" => "there is no measured value at all".to_owned(),
                 known => format!("sources: {known}"),

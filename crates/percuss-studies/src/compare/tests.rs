@@ -324,6 +324,38 @@ fn a_neighbouring_regime_is_named() {
         note.starts_with("no first choice for deforming projectiles"),
         "{note}"
     );
+    // Outside its range a first choice gives way, if there is another one.
+    const LONG: &[Range] = &[Range {
+        measure: Measure::LengthToDiameter,
+        min: 10.0,
+        max: f64::INFINITY,
+        outside: Outside::Warning,
+        because: "it is made up",
+    }];
+    let long = MadeUp {
+        name: "long",
+        validity: ValidityDomain {
+            ranges: LONG,
+            first_choice: DEFORMING,
+            ..ValidityDomain::OPEN
+        },
+        ..OPEN
+    };
+    let (model, note) = recommend(&[&rigid, &long]);
+    assert_eq!(model, "rigid");
+    assert!(
+        note.starts_with("`long` would be a first choice, but length to diameter is 4"),
+        "{note}"
+    );
+    let comparison = compare(
+        &[&long],
+        None,
+        &scenario,
+        &[100.0],
+        &mut Observer::default(),
+    );
+    let alone = comparison.unwrap().recommended[0].clone();
+    assert_eq!((alone.models[0].model, alone.note), ("long", None));
 }
 
 #[test]

@@ -145,7 +145,7 @@ pub struct Calibrate {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
-    figures: FigureArgs,
+    pub figures: FigureArgs,
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]
     json: bool,

@@ -100,7 +100,7 @@ pub struct Compare {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
-    figures: FigureArgs,
+    pub figures: FigureArgs,
     /// Unit system of compare.csv and compare.parquet [default: mm, m/s]
     #[arg(long, value_name = "SYSTEM", requires = "out", value_parser = unit_system())]
     units: Option<UnitSystem>,

@@ -129,7 +129,7 @@ pub struct Limit {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
-    figures: FigureArgs,
+    pub figures: FigureArgs,
     /// No table and no progress: lines of NAME=VALUE pairs
     #[arg(long, short)]
     quiet: bool,

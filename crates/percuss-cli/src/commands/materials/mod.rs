@@ -12,7 +12,7 @@ use clap::{Args, Subcommand, builder::PossibleValuesParser};
 use percuss::{
     case,
     material::{Filter, Library, Material, MaterialEntry, MaterialGroup},
-    units::shorten,
+    units::{Length, shorten},
 };
 use serde::Serialize;
 
@@ -91,6 +91,14 @@ enum Action {
 }
 
 impl Materials {
+    /// Width of the figure, where one is drawn.
+    pub fn figure_width(&self) -> Option<Length> {
+        match &self.action {
+            Some(Action::Compare(compare)) => compare.figures.figure_width,
+            _ => None,
+        }
+    }
+
     pub fn run(&self) -> Result<(), Failure> {
         self.check()?;
         let library = self.library(&VirtualFiles::default())?;

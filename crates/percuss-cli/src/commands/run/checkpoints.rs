@@ -10,8 +10,8 @@ use std::{
 };
 
 use percuss::{
-    input_file::{self, MAX_OWN_BYTES},
-    model::Checkpoints,
+    input_file,
+    model::{CHECKPOINT_START, Checkpoints, memory::memory_limit},
 };
 use percuss_report::replace_file::replace_file_durably;
 
@@ -28,7 +28,8 @@ pub fn file(folder: &Path) -> PathBuf {
 /// Bytes of a folder's checkpoint, if it has one.
 pub fn load(folder: &Path) -> Result<Option<Vec<u8>>, Failure> {
     let path = file(folder);
-    match input_file::bytes(&path, MAX_OWN_BYTES) {
+    // A checkpoint is the memory of a run.
+    match input_file::bytes_after(CHECKPOINT_START, &path, memory_limit()) {
         Ok(bytes) => Ok(Some(bytes)),
         // A folder that cannot be written is reported where it is made.
         Err(error)

@@ -138,7 +138,7 @@ pub struct Run {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
-    figures: FigureArgs,
+    pub figures: FigureArgs,
     /// Unit system of the histories, profiles, gauges and fragments in DIR [default: mm, us, m/s, kN, MPa, J]
     #[arg(long, value_name = "SYSTEM", requires = "out", value_parser = unit_system())]
     units: Option<UnitSystem>,

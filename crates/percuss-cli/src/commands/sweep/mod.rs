@@ -14,7 +14,7 @@ use clap::{Args, Subcommand};
 use percuss::{
     outcome::Outcome,
     sweep::{self, BatchKernel, SweepRow},
-    units::UnitSystem,
+    units::{Length, UnitSystem},
 };
 use percuss_report::sweep::{Manifest, Status, SweepFolder, merge, status};
 use serde::Serialize;
@@ -129,6 +129,14 @@ impl Merge {
 }
 
 impl Sweep {
+    /// Width of the figure, where one is drawn.
+    pub fn figure_width(&self) -> Option<Length> {
+        match &self.what {
+            Some(What::Plot(plot)) => plot.figure_width,
+            _ => None,
+        }
+    }
+
     pub fn run(&self) -> Result<(), Failure> {
         match (&self.what, &self.file, &self.out) {
             (Some(What::Status { folder, json }), ..) => match *json {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use percuss::units::Length;
 use percuss_report::sweep::{PlotRequest, PlotStyle, plot};
 use serde::Serialize;
 
@@ -42,6 +43,9 @@ pub struct Plot {
     /// Formats of the figure, separated by commas, of svg, png and pdf [default: svg,png]
     #[arg(long, value_name = "FORMATS", value_parser = figure_formats::formats)]
     figures: Option<Formats>,
+    /// Width of the figure in print, 60 mm to 182 mm: "88 mm" fits a column of a journal [default: 182 mm]
+    #[arg(long, value_name = "WIDTH", value_parser = figure_formats::figure_width)]
+    pub figure_width: Option<Length>,
     /// Column of the result to draw [default: the first column with values]
     #[arg(long, value_name = "COLUMN")]
     quantity: Option<String>,

@@ -123,7 +123,7 @@ pub struct Uncertainty {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
-    figures: FigureArgs,
+    pub figures: FigureArgs,
     /// No tables and no progress: one line of NAME=VALUE pairs per quantity
     #[arg(long, short)]
     quiet: bool,

@@ -177,7 +177,7 @@ impl FarField {
 
     /// Forces times the changes of velocities in the last kick [N m/s].
     pub(super) fn forced_change(&self) -> f64 {
-        self.nodes.forced_change()
+        self.arch.dispatch(ForcedChange(&self.nodes))
     }
 
     /// Kinetic and elastic energy [J].
@@ -288,6 +288,18 @@ impl NullaryFnOnce for Drift<'_> {
             let force = lanes(|l| stiffness[l] * (near[l] - far[l]));
             springs.force = [before, force];
         }
+    }
+}
+
+/// Sums up forces times changes of velocities.
+struct ForcedChange<'a>(&'a Nodes);
+
+impl NullaryFnOnce for ForcedChange<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        self.0.forced_change()
     }
 }
 

@@ -71,7 +71,7 @@ const AUDIT_INTERVAL: u64 = 64;
 pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
     let Some(plate) = struck(scenario) else {
         return Some(
-            "the target resistance model `expanding-cavity` needs a target of one material".into(),
+            "the target resistance model `expanding-cavity` needs a target of one layer".into(),
         );
     };
     if scenario.resistance.is_some() {

@@ -177,9 +177,10 @@ impl RearFace {
         let half = 0.5 * line.spacing();
         let velocity = (line.at(at + half) - line.at(at - half)) / line.spacing();
         let share = 1.0 / self.cone.stretch(depth);
-        let strain =
-            share / self.cone.distance_to_apex(depth) * line.at(at) + share * velocity / self.speed;
-        [share * line.at(at), strain, share * velocity]
+        let displacement = line.at(at);
+        let strain = share / self.cone.distance_to_apex(depth) * displacement
+            + share * velocity / self.speed;
+        [share * displacement, strain, share * velocity]
     }
 
     /// Velocity of a free rear face on the axis [m/s].

@@ -24,17 +24,13 @@ pub(super) fn dry_friction(before: f64, change: f64, limit: f64) -> (f64, f64) {
     if limit == 0.0 {
         return (free, 0.0);
     }
-    let after = if free.abs() <= limit {
-        0.0
-    } else {
-        free - limit.copysign(free)
-    };
+    // Without branches: which way they go changes from node to node.
+    let slowed = free - limit.copysign(free);
+    let after = if free.abs() <= limit { 0.0 } else { slowed };
     let taken = free - after;
-    if taken * (before + after) < 0.0 {
-        (free, 0.0)
-    } else {
-        (after, taken)
-    }
+    let pushes = taken * (before + after) < 0.0;
+    let velocity = if pushes { free } else { after };
+    (velocity, if pushes { 0.0 } else { taken })
 }
 
 impl<L: Law> Grid<L> {
@@ -50,10 +46,16 @@ impl<L: Law> Grid<L> {
         for s in 0..segments {
             let (first, last) = self.span(s);
             let joined_behind = self.closed.get(s) == Some(&true);
-            for i in first..=last {
-                let joined = (i == first && joined_ahead) || (i == last && joined_behind);
-                if !joined {
-                    self.kick_alone(i, time_step);
+            if !joined_ahead && (first < last || !joined_behind) {
+                self.kick_alone(first, time_step);
+            }
+            if first < last {
+                // Nothing holds the nodes in between.
+                for node in &mut self.nodes[first + 1..last] {
+                    kick(node, time_step);
+                }
+                if !joined_behind {
+                    self.kick_alone(last, time_step);
                 }
             }
             if joined_behind {

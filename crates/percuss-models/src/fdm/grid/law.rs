@@ -53,6 +53,13 @@ pub(in crate::fdm) trait Law: fmt::Debug {
     /// Brings the stress to the middle of the step.
     fn load(&self, cell: &mut Self::Cell, motion: Motion);
 
+    /// Does it with the cells of these numbers.
+    fn load_all(&self, cells: &mut [Self::Cell], moving: &[(usize, Motion)]) {
+        for (i, motion) in moving {
+            self.load(&mut cells[*i], *motion);
+        }
+    }
+
     /// Axial force of a loaded cell, viscosity included [N].
     fn force(&self, cell: &Self::Cell) -> f64;
 
@@ -61,6 +68,11 @@ pub(in crate::fdm) trait Law: fmt::Debug {
 
     /// Largest stable time step [s].
     fn stable_step(&self, cell: &Self::Cell, length: f64, approach: f64) -> f64;
+
+    /// Whether the stable time step is certain to be longer than a step [s], by less work than it takes to find it.
+    fn allows(&self, _cell: &Self::Cell, _length: f64, _step: f64) -> bool {
+        false
+    }
 
     /// Energy at the start of the step in whose middle the cell was loaded.
     fn stored(&self, cell: &Self::Cell) -> Stored;

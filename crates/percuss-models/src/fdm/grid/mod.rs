@@ -31,6 +31,8 @@ const LARGEST_SHORTENING: f64 = 0.02;
 /// The time step grows only when it could grow by this factor, and no faster than by the second one.
 const SLACK: f64 = 1.1;
 const GROWTH: f64 = 1.05;
+/// Factor on a step that no rounding of the stable step of a cell makes up for.
+const ROUNDING: f64 = 1.0 + 1e-9;
 
 /// Boundary condition of an end of the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,6 +85,10 @@ pub(in crate::fdm) struct Grid<L: Law> {
     pub(in crate::fdm) time_step: f64,
     /// Largest stable time step of the current state.
     pub(in crate::fdm) stable_step: f64,
+    /// Cell that sets it, where the next search begins.
+    tightest: usize,
+    /// Cells of a segment that a step changes; in a step only.
+    moving: Vec<(usize, Motion)>,
     /// Force between projectile and target in the last step [N].
     pub(in crate::fdm) contact_force: f64,
     /// Force on what holds the last node in the last step [N].
@@ -123,6 +129,8 @@ impl<L: Law> Grid<L> {
             step: 0,
             time_step: 0.0,
             stable_step: f64::INFINITY,
+            tightest: 0,
+            moving: Vec::new(),
             contact_force: 0.0,
             back_force: 0.0,
             tip_pressure: 0.0,
@@ -145,7 +153,7 @@ impl<L: Law> Grid<L> {
         grid.accumulated.initial_momentum = grid.momentum().residual();
         grid.join_moving();
         grid.join_met();
-        grid.stable_step = grid.limit();
+        grid.find_stable_step();
         grid
     }
 
@@ -251,9 +259,10 @@ impl<L: Law> Grid<L> {
         for (s, segment) in self.segments.iter().enumerate() {
             let law = &self.bodies[segment.body];
             let nodes = &mut self.nodes[segment.cells.start + s..=segment.cells.end + s];
-            let mut behind = 0.0;
-            for (i, cell) in self.cells[segment.cells.clone()].iter_mut().enumerate() {
-                let (a, b) = (nodes[i], nodes[i + 1]);
+            let cells = &mut self.cells[segment.cells.clone()];
+            self.moving.clear();
+            for (i, (cell, ends)) in cells.iter().zip(nodes.windows(2)).enumerate() {
+                let (a, b) = (&ends[0], &ends[1]);
                 let approach = a.velocity - b.velocity;
                 let moves = a.velocity != 0.0 || b.velocity != 0.0;
                 if moves || !law.is_settled(cell) {
@@ -261,21 +270,23 @@ impl<L: Law> Grid<L> {
                     if length.is_nan() || length <= 0.0 {
                         return Err(self.inverted(segment.cells.start + i));
                     }
-                    law.load(
-                        cell,
-                        Motion {
-                            length,
-                            approach,
-                            since_load,
-                            time_step,
-                        },
-                    );
+                    let motion = Motion {
+                        length,
+                        approach,
+                        since_load,
+                        time_step,
+                    };
+                    self.moving.push((i, motion));
                 }
+            }
+            law.load_all(cells, &self.moving);
+            let mut behind = 0.0;
+            for (node, cell) in nodes.iter_mut().zip(&*cells) {
                 let force = law.force(cell);
-                nodes[i].force = behind - force;
+                node.force = behind - force;
                 behind = force;
             }
-            nodes[nodes.len() - 1].force = behind;
+            nodes[cells.len()].force = behind;
         }
         Ok(())
     }
@@ -285,10 +296,11 @@ impl<L: Law> Grid<L> {
         for node in &mut self.nodes {
             let mean = 0.5 * (node.before + node.velocity);
             node.position += mean * time_step;
-            self.accumulated.friction_impulse += node.lost_impulse;
-            self.accumulated.friction_work += node.lost_impulse * mean;
+            if node.lost_impulse != 0.0 {
+                self.accumulated.friction_impulse += node.lost_impulse;
+                self.accumulated.friction_work += node.lost_impulse * mean;
+            }
         }
-        let mut stable = f64::INFINITY;
         for (s, segment) in self.segments.iter().enumerate() {
             let law = &self.bodies[segment.body];
             let nodes = &self.nodes[segment.cells.start + s..=segment.cells.end + s];
@@ -299,25 +311,41 @@ impl<L: Law> Grid<L> {
                 if length.is_nan() || length <= 0.0 || !law.finish(cell, length, mean * time_step) {
                     return Err(self.inverted(segment.cells.start + i));
                 }
-                stable = stable.min(cell_limit(law, cell, length, a.velocity - b.velocity));
             }
         }
-        self.stable_step = stable;
+        self.find_stable_step();
         Ok(())
     }
 
-    fn limit(&self) -> f64 {
-        let mut stable = f64::INFINITY;
-        for (s, segment) in self.segments.iter().enumerate() {
-            let law = &self.bodies[segment.body];
-            for c in segment.cells.clone() {
-                let (a, b) = (&self.nodes[c + s], &self.nodes[c + s + 1]);
-                let length = b.position - a.position;
-                let approach = a.velocity - b.velocity;
-                stable = stable.min(cell_limit(law, &self.cells[c], length, approach));
+    /// Finds the next stable step. The cell that set the last one comes first: most others are then seen to allow it without a division.
+    fn find_stable_step(&mut self) {
+        let (mut found, last) = ((f64::INFINITY, self.tightest), self.tightest);
+        let holds_last = |segment: &Segment| segment.cells.contains(&last);
+        if let Some(s) = self.segments.iter().position(holds_last) {
+            self.compare_steps(s, last..last + 1, &mut found);
+        }
+        for s in 0..self.segments.len() {
+            self.compare_steps(s, self.segments[s].cells.clone(), &mut found);
+        }
+        (self.stable_step, self.tightest) = found;
+    }
+
+    /// Compares the stable steps of some cells of a segment with the smallest one so far and the cell that has it.
+    fn compare_steps(&self, s: usize, cells: Range<usize>, (step, cell): &mut (f64, usize)) {
+        let law = &self.bodies[self.segments[s].body];
+        let ends = self.nodes[cells.start + s..=cells.end + s].windows(2);
+        for ((c, own), ends) in cells.clone().zip(&self.cells[cells]).zip(ends) {
+            let length = ends[1].position - ends[0].position;
+            let approach = ends[0].velocity - ends[1].velocity;
+            let slow = approach.abs() * *step * ROUNDING < LARGEST_SHORTENING * length;
+            if slow && law.allows(own, length, *step * ROUNDING) {
+                continue;
+            }
+            let limit = cell_limit(law, own, length, approach);
+            if limit < *step {
+                (*step, *cell) = (limit, c);
             }
         }
-        stable
     }
 
     fn inverted(&self, cell: usize) -> NumericalError {

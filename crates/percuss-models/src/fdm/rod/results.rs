@@ -8,6 +8,7 @@ use crate::{
     scenario::TargetBody,
     solver::monitor::RunMonitor,
     units::significant,
+    validity::pushed_column_warning,
 };
 
 /// Strain beyond which a cell would have eroded in the chain.
@@ -93,7 +94,7 @@ fn warnings(rod: &Rod<'_>, result: &RunResult) -> Vec<String> {
              is indicative"
                 .to_owned(),
         ),
-        _ => {}
+        _ => warnings.extend(pushed_column_warning(scenario, result.depth_of_penetration)),
     }
     let heated = scenario.options.chain.adiabatic_heating();
     let material = &scenario.projectile.material;

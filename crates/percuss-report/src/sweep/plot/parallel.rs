@@ -8,12 +8,15 @@ use super::{PlotStyle, data::Data};
 use crate::{
     Figure,
     drawing::{Drawing, Text, shorten},
-    frame::{HEIGHT, WIDTH, tick_label},
+    figure_width,
+    frame::tick_label,
     names, palette,
 };
 
 /// Largest number of drawn lines.
 const LINES: usize = 1200;
+/// Height of the figure [px].
+const HEIGHT: f64 = 500.0;
 /// Least distance of axes [px].
 const APART: f64 = 128.0;
 /// Space around the axes: left, right, top, bottom [px].
@@ -27,7 +30,7 @@ const BELOW: [f64; 2] = [20.0, 36.0];
 pub(super) fn draw(data: &Data<'_>) -> Figure {
     let varied = data.varied();
     let gaps = varied.len().max(1) as f64;
-    let width = WIDTH.max(MARGINS[0] + MARGINS[1] + APART * gaps);
+    let width = figure_width::pixels().max(MARGINS[0] + MARGINS[1] + APART * gaps);
     let apart = (width - MARGINS[0] - MARGINS[1]) / gaps;
     let at = |axis: usize| MARGINS[0] + apart * axis as f64;
     let scales: Vec<Scale> = varied

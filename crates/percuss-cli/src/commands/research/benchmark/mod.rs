@@ -3,7 +3,10 @@
 mod compute;
 mod table;
 
-use std::{path::PathBuf, sync::atomic::AtomicBool};
+use std::{
+    path::{Path, PathBuf},
+    sync::atomic::AtomicBool,
+};
 
 use clap::{Args, ValueEnum};
 use percuss::{
@@ -239,7 +242,10 @@ impl Benchmark {
         };
         let (references, reference) = self.references()?;
         let paper_case = match &self.paper_case {
-            Some(file) => paper_case::read_file(file)?,
+            Some(file) => {
+                opens(file)?;
+                paper_case::read_file(file)?
+            }
             None => paper_case::built_in(),
         };
         if !references
@@ -280,9 +286,7 @@ impl Benchmark {
     fn references(&self) -> Result<(Vec<Reference>, String), Failure> {
         let (references, name) = match &self.reference {
             Some(file) => {
-                // A misspelt name is an error, not an empty file.
-                input_file::open(file, MAX_TABLE_BYTES)
-                    .map_err(|error| input_file::unreadable(file, error))?;
+                opens(file)?;
                 (reference::read_file(file)?, file.display().to_string())
             }
             None => (reference::built_in(), "data of the program".to_owned()),
@@ -304,6 +308,12 @@ impl Benchmark {
         words.extend(self.out.iter().map(|out| path("--out", out)));
         words.join(" ")
     }
+}
+
+/// Fails where a file cannot be opened: a misspelt name is an error, not an empty file.
+fn opens(file: &Path) -> Result<(), Failure> {
+    input_file::open(file, MAX_TABLE_BYTES).map_err(|error| input_file::unreadable(file, error))?;
+    Ok(())
 }
 
 /// Error when no reference passes its check.

@@ -1,4 +1,4 @@
-//! Limits of the texts and keys of a file: what is echoed in messages, tables and figures stays short.
+//! Limits of the texts and keys of a file: what is echoed in messages, tables and figures stays short, and is text.
 
 use toml::de::{DeTable, DeValue};
 
@@ -9,11 +9,8 @@ const MOST_CHARACTERS: usize = 1000;
 /// Most characters of a key.
 const MOST_OF_KEY: usize = 100;
 
-/// One diagnostic for the first text or key that is too long, if there is one.
+/// One diagnostic for the first text or key that is too long or holds a control character, if there is one.
 pub(super) fn diagnostics(text: &str) -> Vec<Diagnostic> {
-    if text.len() <= MOST_OF_KEY {
-        return Vec::new();
-    }
     let Ok(root) = DeTable::parse(text) else {
         return Vec::new();
     };
@@ -35,6 +32,9 @@ fn in_table(path: &str, table: &DeTable<'_>) -> Option<Diagnostic> {
                 format!("allowed: up to {MOST_OF_KEY}"),
             ));
         }
+        if let Some(found) = control(path, "the key", key) {
+            return Some(found);
+        }
         let path = match path {
             "" => key.to_string(),
             _ => format!("{path}.{key}"),
@@ -49,13 +49,14 @@ fn in_value(path: &str, value: &DeValue<'_>) -> Option<Diagnostic> {
         DeValue::String(_) if is_table_of_curves(path) => None,
         DeValue::String(text) => {
             let count = text.chars().count();
-            (count > MOST_CHARACTERS).then(|| {
-                Diagnostic::at(
+            if count > MOST_CHARACTERS {
+                return Some(Diagnostic::at(
                     path,
                     format!("the text has {count} characters"),
                     format!("allowed: up to {MOST_CHARACTERS}; give a shorter one"),
-                )
-            })
+                ));
+            }
+            control(path, "the text", text)
         }
         DeValue::Array(values) => values
             .iter()
@@ -64,6 +65,21 @@ fn in_value(path: &str, value: &DeValue<'_>) -> Option<Diagnostic> {
         DeValue::Table(table) => in_table(path, table),
         _ => None,
     }
+}
+
+/// A terminal obeys control characters, and figures and pages cannot hold them.
+fn control(path: &str, what: &str, text: &str) -> Option<Diagnostic> {
+    let is_none_of_texts =
+        |c: &char| (c.is_control() && !"\n\r\t".contains(*c)) || "\u{fffe}\u{ffff}".contains(*c);
+    let found = text.chars().find(is_none_of_texts)?;
+    Some(Diagnostic::at(
+        path,
+        format!(
+            "{what} holds the control character U+{:04X}",
+            u32::from(found)
+        ),
+        "remove it; a line break and a tab are allowed",
+    ))
 }
 
 /// Whether a key is `measured_curves.N.csv`.
@@ -103,6 +119,18 @@ mod tests {
             "{message}"
         );
         assert_eq!(found(&format!("t.{} = 1", "k".repeat(100))), None);
+        for (text, key, code) in [
+            (r#"a = "x\u001b[2J""#, "a", "U+001B"),
+            (r#"a = { b = ["\u009b"] }"#, "a.b.0", "U+009B"),
+            (r#""\u0000" = 1"#, "", "U+0000"),
+        ] {
+            let (place, message) = found(text).unwrap();
+            assert!(
+                place == key && message.ends_with(code),
+                "{place}: {message}"
+            );
+        }
+        assert_eq!(found(r#"a = "one\n\ttwo µ""#), None);
         let table = |key: &str| format!("[[measured_curves]]\n{key} = '{}'", "1,2".repeat(1000));
         assert_eq!(found(&table("csv")), None);
         assert!(found(&table("file")).is_some());
