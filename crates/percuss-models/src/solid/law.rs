@@ -3,8 +3,10 @@
 use super::points::MaterialPoints;
 use crate::{
     lanes::{Lanes, lanes},
-    material::{DamageState, PreparedDamage, PreparedStrength, StateEquation, YieldPoint},
-    options::ArtificialViscosity,
+    material::{
+        DamageState, Material, PreparedDamage, PreparedStrength, StateEquation, YieldPoint,
+    },
+    options::{ArtificialViscosity, Eos},
     solver::Particle,
 };
 
@@ -45,7 +47,65 @@ pub(crate) struct Law {
     pub(crate) axisymmetric: bool,
 }
 
+/// What the options of a model leave of a material.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Behaviour {
+    pub(crate) equation_of_state: Eos,
+    pub(crate) rate_effects: bool,
+    /// Fraction of plastic work that becomes heat; 0 without heating.
+    pub(crate) heat_fraction: f64,
+    pub(crate) viscosity: ArtificialViscosity,
+}
+
 impl Law {
+    /// A solid of a density [kg/m3], a shear and a bulk modulus [Pa] and a strength law, in plane strain: without rate, heat, artificial
+    /// viscosity and failure.
+    pub(crate) fn plain(
+        density: f64,
+        [shear_modulus, bulk_modulus]: [f64; 2],
+        strength: Box<dyn PreparedStrength>,
+    ) -> Self {
+        Self {
+            density,
+            shear_modulus,
+            bulk_modulus,
+            pressure: Pressure::Linear,
+            strength,
+            rate_effects: false,
+            heating: 0.0,
+            viscosity: ArtificialViscosity {
+                linear: 0.0,
+                quadratic: 0.0,
+            },
+            spall_strength: None,
+            damage: None,
+            band_width: 1.0,
+            failure_strain: None,
+            erode_failed: false,
+            erosion_strain: None,
+            axisymmetric: false,
+        }
+    }
+
+    /// The law of a material that does not fail, in plane strain.
+    pub(crate) fn of(material: &Material, behaviour: &Behaviour) -> Self {
+        let moduli = [material.shear_modulus(), material.bulk_modulus()];
+        let strength = material.strength.law().prepare(material, 1.0);
+        let state = match behaviour.equation_of_state {
+            Eos::Linear => None,
+            Eos::MieGruneisen => StateEquation::of(material),
+        };
+        Self {
+            pressure: state.map_or(Pressure::Linear, Pressure::MieGruneisen),
+            rate_effects: behaviour.rate_effects,
+            heating: material
+                .specific_heat
+                .map_or(0.0, |heat| behaviour.heat_fraction / heat.si()),
+            viscosity: behaviour.viscosity,
+            ..Self::plain(material.density.si(), moduli, strength)
+        }
+    }
+
     /// Where a particle stands that does not flow.
     pub(crate) fn slow_yield_point(&self, particle: &Particle) -> YieldPoint {
         YieldPoint::slow(&*self.strength, &particle.flow_state())

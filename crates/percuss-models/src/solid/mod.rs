@@ -7,7 +7,7 @@ mod rates;
 
 pub(crate) use self::{
     deform::Work,
-    law::{Law, Pressure},
+    law::{Behaviour, Law},
     points::{MaterialPoints, set_one},
     rates::Rates,
 };

@@ -331,15 +331,7 @@ impl StressBody {
             .with_min_len(LEAST_ROWS)
             .map(|row| self.row_sums(row, step, loads))
             .collect();
-        let mut sums = BodySums::default();
-        for row in rows {
-            sums.kinetic += row.kinetic;
-            sums.elastic += row.elastic;
-            sums.plastic += row.plastic;
-            sums.viscous += row.viscous;
-            sums.stabilisation += row.stabilisation;
-        }
-        sums
+        rows.into_iter().sum()
     }
 
     /// Kinetic energy as of the lattice, with velocities half a step before and after.
