@@ -274,10 +274,16 @@ impl Bonded<2> for StressBody {
         )];
         let least = 1.0 - stretch;
         if least < LEAST_STRETCH {
+            let what = match least > 0.0 {
+                true => format!(
+                    "compressed or sheared to {} of its size, less than {LEAST_STRETCH}",
+                    significant(least, 2)
+                ),
+                false => "turned over".to_owned(),
+            };
             warnings.push(format!(
-                "the answer is uncertain: a triangle of particles is compressed or sheared to {} of its size, less than {LEAST_STRETCH}; use `axi` for \
-                 bodies of revolution, or a lower `projectile.impact_velocity`",
-                significant(least, 2)
+                "the answer is uncertain: a triangle of particles is {what}; use `axi` for bodies of revolution, or a lower \
+                 `projectile.impact_velocity`"
             ));
         }
         warnings
