@@ -3,8 +3,8 @@
 use super::{PerfectlyPlastic, Solid, body, rectangle, supported, uniform};
 use crate::{axi::boundary::BoundaryConditions, solid::Law};
 
-/// Final length [m] of a bar of copper of 300 MPa, 25 mm long and 8 mm wide, at 150 m/s, with so many cells over half its width.
-fn final_length(cells: f64) -> f64 {
+/// Final length [m] of a bar of copper of 300 MPa, 25 mm long and 8 mm wide, at a velocity [m/s], with so many cells over half its width.
+fn final_length(velocity: f64, cells: f64) -> f64 {
     let (length, half_width) = (25e-3, 4e-3);
     let cell = half_width / cells;
     let mut solid = Solid::elastic(8960.0, 124e9, 0.34);
@@ -19,7 +19,7 @@ fn final_length(cells: f64) -> f64 {
     let bar = body(
         law,
         rectangle((0.0, half_width), (-length, 0.0), 0.5 * cell),
-        &uniform([0.0, 150.0]),
+        &uniform([0.0, velocity]),
     );
     let wall = BoundaryConditions {
         wall: true,
@@ -37,12 +37,12 @@ fn final_length(cells: f64) -> f64 {
     largest - least + 0.5 * cell
 }
 
-/// The length with 8 cells; 4 and 16 give 19.329 and 18.963 mm.
+/// The length at 150 m/s with 8 cells; 4, 16 and 32 give 19.329, 18.963 and 18.934 mm.
 const LENGTH: f64 = 19.078e-3;
 
 #[test]
 fn a_bar_in_plane_strain_has_the_length_that_others_are_compared_with() {
-    let length = final_length(8.0);
+    let length = final_length(150.0, 8.0);
     println!("{length:e}");
     assert!((length / LENGTH - 1.0).abs() < 0.005, "{length:e}");
 }
@@ -50,7 +50,10 @@ fn a_bar_in_plane_strain_has_the_length_that_others_are_compared_with() {
 #[test]
 #[ignore = "a measurement"]
 fn lengths_of_a_plane_bar_converge() {
-    for cells in [4.0, 8.0, 16.0, 32.0] {
-        println!("{cells}: {:e}", final_length(cells));
+    for velocity in [90.0, 150.0] {
+        for cells in [4.0, 8.0, 16.0, 32.0] {
+            let length = final_length(velocity, cells);
+            println!("{velocity} m/s, {cells} cells: {length:e}");
+        }
     }
 }
