@@ -171,7 +171,11 @@ const SPALL: &str = r#"
 
 fn scenario(text: &str) -> Scenario {
     // Histories at gauges continue too.
-    let gauges = "[[gauges]]\nposition = '-1 mm'\n[[gauges]]\nposition = '2 mm'\n";
+    let second = match text.contains("rigid_wall") {
+        true => "-2 mm",
+        false => "2 mm",
+    };
+    let gauges = format!("[[gauges]]\nposition = '-1 mm'\n[[gauges]]\nposition = '{second}'\n");
     case::load_str("checkpoints", &format!("{text}\n{gauges}")).unwrap()
 }
 
