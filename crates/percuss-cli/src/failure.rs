@@ -54,12 +54,14 @@ pub enum Failure {
     Interrupted(&'static str),
     /// The user stopped the axisymmetric runs; the result of the model is there.
     AxisymmetricStopped,
-    /// The user stopped the packings after the first one; those that are complete are there.
-    SeedsStopped {
+    /// The user stopped a study after its first run; the results of those that are complete are there.
+    StudyStopped {
         /// How many are complete.
         complete: usize,
         /// How many were wanted.
-        wanted: u16,
+        wanted: u32,
+        /// What they differ in.
+        runs: &'static str,
     },
     /// The command line asks for something that does not exist.
     Usage {
@@ -136,7 +138,7 @@ impl Failure {
             | Self::SweepStopped { .. }
             | Self::Interrupted(_)
             | Self::AxisymmetricStopped
-            | Self::SeedsStopped { .. } => 130,
+            | Self::StudyStopped { .. } => 130,
             Self::Library(Error::Numerical(_) | Error::Cancelled { .. }) | Self::Report(_) => 3,
             Self::Library(Error::Read { .. }) | Self::Write { .. } | Self::Output(_) => 4,
             Self::Library(Error::Input(error)) => match error.subject {
@@ -220,9 +222,13 @@ impl Failure {
                 "the axisymmetric runs were stopped; the result of the model stands",
                 "`--fast` leaves them out",
             ),
-            Self::SeedsStopped { complete, wanted } => message(
+            Self::StudyStopped {
+                complete,
+                wanted,
+                runs,
+            } => message(
                 &format!(
-                    "the run was stopped after {complete} of {wanted} packings; their results stand"
+                    "the study was stopped after {complete} of {wanted} {runs}; their results stand"
                 ),
                 "",
             ),

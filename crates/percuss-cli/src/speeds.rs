@@ -223,6 +223,10 @@ mod tests {
         assert_eq!(error("-5"), SpeedsError::OutOfRange(-5.0));
         assert_eq!(error("1e999"), not_a_number("1e999"));
         assert!(error("200..300").to_string().contains("200..1500:27"));
-        assert!(error("200 mph").to_string().contains("m/s, km/s, ft/s"));
+        assert!(
+            error("200 mph")
+                .to_string()
+                .contains("m/s, km/s, km/h, ft/s")
+        );
     }
 }

@@ -87,6 +87,18 @@ fn pipes_and_devices_are_refused_wherever_a_file_is_named() {
     }
 }
 
+/// A pipe as output would wait for its reader.
+#[test]
+fn a_pipe_is_no_file_to_write_materials_to() {
+    let folder = folder();
+    let export = ["materials", "export", "copper", "--out", "pipe"];
+    let (code, said) = ended(folder.path(), &export);
+    assert_eq!(code, 4, "{said}");
+    for words in ["it is not a regular file", "without `--out`"] {
+        assert!(flat(&said).contains(words), "{said}");
+    }
+}
+
 /// The same of files that other files name.
 #[test]
 fn pipes_are_refused_in_the_files_that_name_them() {

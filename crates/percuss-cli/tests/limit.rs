@@ -382,7 +382,7 @@ fn a_limit_that_is_an_input_is_no_result() {
     assert_eq!(entry["curve"].as_array().unwrap().len(), 12);
     let text = ok(&folder, &["shot.toml", "--model", "recht_ipson"]);
     assert!(
-        text.contains("no model predicts a limit for this case"),
+        text.contains("no model predicts a limit of this case between the velocities searched"),
         "{text}"
     );
 }

@@ -8,7 +8,7 @@ use std::{
     process::{Command, Stdio},
 };
 
-use crate::support::{flat, percuss};
+use crate::support::{flat, folder_with, percuss};
 
 /// Arguments that are refused, and words of the answer.
 fn refused(arguments: &[&str], words: &[&str]) {
@@ -64,10 +64,31 @@ fn a_port_that_is_taken_and_a_case_that_is_not_valid_are_named() {
 
 #[test]
 fn the_first_line_says_where_the_page_is() {
-    let case = concat!(
+    let page = page_of(concat!(
         env!("CARGO_MANIFEST_DIR"),
         "/../../cases/taylor-copper-wilkins/scenario.toml"
-    );
+    ));
+    assert!(page.starts_with("HTTP/1.1 200"), "{page}");
+    assert!(page.contains("final projectile length"), "{page}");
+    assert!(page.contains("taylor-copper-wilkins"), "{page}");
+}
+
+/// The page gets the text of the case with all that it names.
+#[test]
+fn materials_of_files_are_in_the_text_of_the_page() {
+    let case = "material_files = ['metals.toml']\n\
+        projectile = { material = 'soft', length = '20 mm', diameter = '5 mm', impact_velocity = '200 m/s' }\n\
+        target = { rigid_wall = true }\n";
+    let metals = "[soft]\nname = 'Soft metal of a file'\ndensity = '8000 kg/m3'\n\
+        youngs_modulus = '100 GPa'\npoissons_ratio = 0.3\nstrength.perfectly_plastic.flow_stress = '300 MPa'\n";
+    let folder = folder_with(&[("case.toml", case), ("metals.toml", metals)]);
+    let page = page_of(&folder.path().join("case.toml").display().to_string());
+    assert!(page.starts_with("HTTP/1.1 200"), "{page}");
+    assert!(page.contains("Soft metal of a file"), "{page}");
+}
+
+/// Answer to the first request of a served case.
+fn page_of(case: &str) -> String {
     let mut child = Command::new(env!("CARGO_BIN_EXE_percuss"))
         .args(["serve", "--port", "0", case])
         .stdout(Stdio::piped())
@@ -85,7 +106,5 @@ fn the_first_line_says_where_the_page_is() {
     stream.read_to_string(&mut page).unwrap();
     child.kill().unwrap();
     child.wait().unwrap();
-    assert!(page.starts_with("HTTP/1.1 200"), "{page}");
-    assert!(page.contains("final projectile length"), "{page}");
-    assert!(page.contains("taylor-copper-wilkins"), "{page}");
+    page
 }

@@ -112,7 +112,7 @@ fn the_programs_own_tests_can_be_added() {
     );
     let text = ok(folder.path(), &["--data", "builtin", "--kind", "depth"]);
     assert!(
-        text.contains("data: tests.csv (3), tests of the program (1132)\n"),
+        text.contains("data: tests.csv (3), tests of the program (1133)\n"),
         "{text}"
     );
     assert!(

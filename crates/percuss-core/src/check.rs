@@ -205,6 +205,8 @@ pub mod limits {
     pub const MASS: Limits = limits(1e-9, 1e5);
     /// Impact velocity [m/s].
     pub const IMPACT_VELOCITY: Limits = limits(0.0, 10_000.0);
+    /// Impact velocity other than zero [m/s]: below the least one rounding may exceed the energy of the impact.
+    pub const MOVING: Limits = limits(1e-6, IMPACT_VELOCITY.max);
     /// Angle of an impact to the normal [rad]: up to 85 degrees.
     pub const OBLIQUITY: Limits = limits(0.0, 85.0 * std::f64::consts::PI / 180.0);
     /// Density [kg/m3]; the lightest structural foams weigh about 15.

@@ -7,7 +7,7 @@
 mod tests;
 
 use std::{
-    fs::File,
+    fs::{File, OpenOptions},
     io::{self, ErrorKind, Read},
     path::Path,
 };
@@ -28,10 +28,23 @@ pub const MAX_BLOCK_BYTES: u64 = 1 << 28;
 /// Those of the system; [`ErrorKind::InvalidInput`] for anything but a regular file; [`ErrorKind::FileTooLarge`].
 pub fn open(path: &Path, limit: u64) -> io::Result<File> {
     regular(&std::fs::metadata(path)?, limit)?;
-    let file = File::open(path)?;
+    let file = options().open(path)?;
     // Another file may have taken its place.
     regular(&file.metadata()?, limit)?;
     Ok(file)
+}
+
+/// Options that read and never wait: a pipe may take the place of the file after the first check, and some files of the system
+/// have no end.
+fn options() -> OpenOptions {
+    let mut options = OpenOptions::new();
+    options.read(true);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::OpenOptionsExt;
+        options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits().cast_signed());
+    }
+    options
 }
 
 fn regular(metadata: &std::fs::Metadata, limit: u64) -> io::Result<()> {

@@ -52,6 +52,21 @@ fn pipes_devices_and_links_to_them_are_refused_at_once() {
     assert!(words.contains("there is no such file"), "{words}");
 }
 
+/// A pipe without a writer may take the place of a file between the two checks.
+#[cfg(unix)]
+#[test]
+fn opening_does_not_wait() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.unwrap().success());
+    let (sent, received) = std::sync::mpsc::channel();
+    std::thread::spawn(move || sent.send(options().open(pipe).unwrap().metadata()));
+    let opened = received.recv_timeout(std::time::Duration::from_secs(20));
+    let error = regular(&opened.unwrap().unwrap(), 10).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::InvalidInput);
+}
+
 #[cfg(unix)]
 fn error_of(name: &str) -> io::Error {
     bytes(Path::new(name), 10).unwrap_err()

@@ -6,7 +6,7 @@ use crate::{
     Axis, HeatMap, LineChart, Mark, Series, Style,
     caption::significant,
     palette,
-    stress_grid::{GAP, StressGrid, spacing},
+    stress_grid::{GAP, StressGrid, reach, spacing},
 };
 
 /// Two colours per body.
@@ -162,18 +162,27 @@ struct Body<'a> {
     name: String,
     colors: [&'static str; 2],
     elements: Vec<&'a ElementState>,
-    /// Distance of neighbours from which on something has eroded between them [m].
-    gap: f64,
+    /// Distance of neighbouring elements before impact [m].
+    spacing: f64,
 }
 
 impl Body<'_> {
-    /// A value over the initial position in mm.
+    /// A value over the initial position in mm; where something has eroded, a point without value.
     fn points(&self, value: fn(&ElementState) -> f64) -> Vec<(f64, f64)> {
-        let points = self.elements.iter();
-        with_gaps(
-            points.map(|e| (e.initial_position * 1e3, value(e))),
-            self.gap * 1e3,
-        )
+        let mut points: Vec<(f64, f64)> = Vec::new();
+        let mut before: Option<&ElementState> = None;
+        for &element in &self.elements {
+            let neighbours = |a: &ElementState| {
+                element.initial_position - a.initial_position <= GAP * reach(a, self.spacing)
+            };
+            // Something has eroded between them.
+            if before.is_some_and(|before| !neighbours(before)) {
+                points.push((f64::NAN, f64::NAN));
+            }
+            points.push((element.initial_position * 1e3, value(element)));
+            before = Some(element);
+        }
+        points
     }
 }
 
@@ -189,7 +198,7 @@ fn bodies<'a>(first: &Profile, last: &'a Profile) -> Vec<Body<'a>> {
         },
         colors: COLORS[part % COLORS.len()],
         elements: last.elements.iter().filter(|e| e.part == part).collect(),
-        gap: GAP * spacing(first, part),
+        spacing: spacing(first, part),
     };
     parts.iter().map(of).collect()
 }
@@ -198,20 +207,6 @@ fn parts(profile: &Profile) -> Vec<usize> {
     let mut parts: Vec<usize> = profile.elements.iter().map(|e| e.part).collect();
     parts.dedup();
     parts
-}
-
-/// Puts a point without value where neighbours are farther apart than elements are: there something has eroded.
-fn with_gaps(points: impl Iterator<Item = (f64, f64)>, gap: f64) -> Vec<(f64, f64)> {
-    let mut all: Vec<(f64, f64)> = Vec::new();
-    for point in points {
-        if let Some(before) = all.last()
-            && point.0 - before.0 > gap
-        {
-            all.push((f64::NAN, f64::NAN));
-        }
-        all.push(point);
-    }
-    all
 }
 
 /// Closed outline of each piece of the projectile in mm, the front end of the foremost at 0, the tail at negative

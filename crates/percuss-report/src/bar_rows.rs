@@ -16,15 +16,12 @@ use crate::{
     single,
 };
 
-/// Most characters of a name, on a figure of usual width.
+/// Most characters of a name beside its row.
 const NAME_CHARS: usize = 46;
-/// Part of a narrow figure that names may take.
-const NARROW_NAMES: f64 = 0.4;
-/// Height of a row, and of what surrounds the rows [px].
-const ROW: f64 = 42.0;
+/// Height of what surrounds the rows [px].
 const SURROUNDINGS: f64 = 150.0;
-/// Part of a row that its bars fill.
-const FILLED: f64 = 0.66;
+/// What surrounds the rows of a narrow figure at its sides [px].
+const NARROW_SIDES: f64 = 95.0;
 /// Half the length of the caps of an interval [px].
 const CAP: f64 = 3.5;
 /// Size of the texts at the ends of bars, and their distance from it [px].
@@ -32,6 +29,26 @@ const TEXT_SIZE: u32 = 11;
 const TEXT_GAP: f64 = 6.0;
 /// Width of a character [px].
 const TEXT_WIDTH: f64 = 6.6;
+
+/// Rows of a chart: height [px], the part that the bars fill, and the distance of its middle from that of the row.
+struct Rows {
+    height: f64,
+    filled: f64,
+    shift: f64,
+}
+
+/// Names stand beside the rows.
+const BESIDE: Rows = Rows {
+    height: 42.0,
+    filled: 0.66,
+    shift: 0.0,
+};
+/// Names stand above the bars, where those need the width.
+const ABOVE: Rows = Rows {
+    height: 56.0,
+    filled: 0.46,
+    shift: -0.18,
+};
 
 /// A bar of a row.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -105,27 +122,39 @@ impl BarRows {
     pub fn draw(&self) -> Figure {
         let count = self.rows.len().max(1) as f64;
         let (x, extent) = self.axis();
-        let chars = match figure_width::is_narrow() {
-            true => (NARROW_NAMES * figure_width::pixels() / TEXT_WIDTH) as usize,
-            false => NAME_CHARS,
+        let narrow = figure_width::is_narrow();
+        let rows = if narrow { &ABOVE } else { &BESIDE };
+        let beside = |name: &str| match narrow {
+            true => String::new(),
+            false => plain(name, NAME_CHARS),
         };
-        let names = self.rows.iter().rev().map(|row| plain(&row.0, chars));
+        let names = self.rows.iter().rev().map(|row| beside(&row.0));
         let y = Axis::new("").range(0.5, count + 0.5).names(names);
         let legend = self
             .colors
             .iter()
             .map(|(name, color)| area_entry(name, color));
         let frame = Frame {
-            height: SURROUNDINGS + ROW * count.max(2.0),
+            height: SURROUNDINGS + rows.height * count.max(2.0),
             legend: legend.chain(mark::entries(&self.marks)).collect(),
             ..Frame::new(&self.head, [&x, &y], (extent, (0.5, count + 0.5)))
         };
         // Axes are drawn only for a plot, so there is one without content.
         frame.draw(vec![LinePlot::new().into()], |scene, place| {
-            let height = FILLED / self.lanes as f64;
-            for (i, bars) in self.rows.iter().map(|row| &row.1).enumerate() {
+            let height = rows.filled / self.lanes as f64;
+            for (i, (name, bars)) in self.rows.iter().enumerate() {
+                let middle = count - i as f64 + rows.shift;
+                if narrow {
+                    let chars = ((place.plot_width() - TEXT_GAP) / TEXT_WIDTH) as usize;
+                    let (left, low) = (place.margin_left, middle + 0.5 * rows.filled);
+                    scene.add(text(
+                        (left + TEXT_GAP, place.map_y(low) - TEXT_GAP),
+                        &plain(name, chars),
+                        (TEXT_SIZE, TextAnchor::Start, None),
+                    ));
+                }
                 for one in bars {
-                    let top = count - i as f64 + 0.5 * FILLED - height * one.lane as f64;
+                    let top = middle + 0.5 * rows.filled - height * one.lane as f64;
                     let (from, to) = (place.map_x(one.ends.0), place.map_x(one.ends.1));
                     let (above, below) = (place.map_y(top), place.map_y(top - height));
                     let middle = 0.5 * (above + below);
@@ -158,20 +187,24 @@ impl BarRows {
         })
     }
 
-    /// Part of the width that texts take at the left and at the right of the bars.
+    /// Space that texts take at the left and at the right of the bars, in parts of the space of the bars.
     fn space_for_texts(&self) -> (f64, f64) {
         // What names, legend and margins leave of the canvas, near enough [px].
-        let plot_width = 0.37 * figure_width::pixels();
-        let bars = || self.rows.iter().flat_map(|row| &row.1);
+        let (plot_width, most) = match figure_width::is_narrow() {
+            true => (figure_width::pixels() - NARROW_SIDES, 0.4),
+            false => (0.37 * figure_width::pixels(), 0.3),
+        };
+        let all = || self.rows.iter().flat_map(|row| &row.1);
         let longest = |left: bool| {
-            let texts = bars().filter(|bar| (bar.ends.1 < bar.ends.0) == left);
+            let texts = all().filter(|bar| (bar.ends.1 < bar.ends.0) == left);
             texts.map(|bar| bar.text.chars().count()).max().unwrap_or(0) as f64
         };
-        let most = if figure_width::is_narrow() { 0.6 } else { 0.3 };
         let part = |chars: f64| match chars {
             0.0 => 0.03,
             chars => ((chars * TEXT_WIDTH + 2.0 * TEXT_GAP) / plot_width).min(most),
         };
-        (part(longest(true)), part(longest(false)))
+        let (left, right) = (part(longest(true)), part(longest(false)));
+        let bars = 1.0 - left - right;
+        (left / bars, right / bars)
     }
 }

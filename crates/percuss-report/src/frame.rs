@@ -131,7 +131,7 @@ impl<'a> Frame<'a> {
             .with_body_size(12)
             .with_grid_line_width(0.8)
             .with_box_axes()
-            .with_ticks(if figure_width::is_narrow() { 5 } else { 7 })
+            .with_ticks(ticks())
             .with_tick_format(TickFormat::Custom(Arc::new(tick_label)))
             .with_x_label(plain(&self.x.label, usize::MAX))
             .with_y_label(plain(&self.y.label, usize::MAX));
@@ -198,6 +198,15 @@ impl<'a> Frame<'a> {
             .with_subtitle(plain(&self.head.caption, (2 * caption).saturating_sub(10)))
             .with_subtitle_size(CAPTION_SIZE)
             .with_subtitle_wrap(caption)
+    }
+}
+
+/// About how many ticks have place.
+fn ticks() -> usize {
+    match figure_width::pixels() {
+        ..340.0 => 3,
+        _ if figure_width::is_narrow() => 5,
+        _ => 7,
     }
 }
 

@@ -21,7 +21,7 @@ use crate::{
 /// Writes the history of a run to a folder, which is made if it does not exist. Files of these names are replaced:
 ///
 /// - `history.csv` and `history.parquet`: velocities, positions, forces and both balances, one row per sample;
-/// - `profiles.parquet`: the state along the axis, a row for each element at each recorded time;
+/// - `profiles.parquet`, where the model has elements: the state along the axis, a row for each element at each recorded time;
 /// - `final-profile.csv`: that state at the end;
 /// - `gauges.csv` and `gauges.parquet`, where the case has gauges: a row for each gauge and time.
 ///
@@ -68,8 +68,10 @@ pub fn history_files(
     let end = "final-profile.csv";
     let mut files = vec![(csv, column::csv(csv, &samples, &history.samples)?)];
     files.extend(column::parquet(parquet, &samples, &history.samples)?);
-    files.extend(column::parquet(profiles, &elements, &all)?);
-    files.push((end, column::csv(end, &elements, &last)?));
+    if !all.is_empty() {
+        files.extend(column::parquet(profiles, &elements, &all)?);
+        files.push((end, column::csv(end, &elements, &last)?));
+    }
     if !history.gauges.is_empty() {
         let (csv, parquet) = ("gauges.csv", "gauges.parquet");
         let rows: Vec<Place> = history.gauges.iter().flat_map(readings).collect();

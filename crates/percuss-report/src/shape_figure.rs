@@ -37,10 +37,7 @@ pub fn write_shapes(folder: &Path, result: &RunResult) -> Result<Vec<PathBuf>, R
 
 /// Crater and projectile at the end, true to scale.
 pub(crate) fn shape_chart(scenario: &Scenario, shapes: &Shapes) -> LineChart {
-    let rod = &scenario.projectile;
-    let widest = shapes.projectile.iter().map(|point| point[0]);
-    let around = if shapes.crater.is_empty() { 1.5 } else { 2.5 }
-        * widest.fold(0.5 * rod.diameter, f64::max);
+    let around = width_shown(scenario, shapes);
     let crater: Vec<_> = shapes
         .crater
         .iter()
@@ -50,10 +47,10 @@ pub(crate) fn shape_chart(scenario: &Scenario, shapes: &Shapes) -> LineChart {
     let solid = !crater.is_empty();
     let mut chart = LineChart::new(
         "final-shape",
-        if solid {
-            "Final shape of crater and projectile"
-        } else {
-            "Final shape of the projectile"
+        match (solid, shapes.projectile.is_empty()) {
+            (true, false) => "Final shape of crater and projectile",
+            (true, true) => "Final shape of the target",
+            (false, _) => "Final shape of the projectile",
         },
         Axis::new("Distance from the axis (mm)"),
         Axis::new("Depth (mm)").downward(),
@@ -64,7 +61,7 @@ pub(crate) fn shape_chart(scenario: &Scenario, shapes: &Shapes) -> LineChart {
             Some(_) => "target, impact side",
             None => "crater",
         };
-        chart = chart.series(Series::new(name, mirrored(&crater)));
+        chart = chart.series(Series::new(name, mirrored_surface(&crater)));
     }
     if !shapes.projectile.is_empty() {
         chart = chart.series(Series::new("projectile", mirrored(&shapes.projectile)));
@@ -78,9 +75,39 @@ pub(crate) fn shape_chart(scenario: &Scenario, shapes: &Shapes) -> LineChart {
     chart.true_to_scale()
 }
 
-/// Points of both halves in mm, from the left to the right and as one line.
+/// Radius out to which the shapes are drawn [m]: around the projectile, or the bulge of a plate to a twentieth of its depth.
+fn width_shown(scenario: &Scenario, shapes: &Shapes) -> f64 {
+    let widest = shapes.projectile.iter().map(|point| point[0]);
+    let part = if shapes.crater.is_empty() { 1.5 } else { 2.5 };
+    let around = part * widest.fold(0.5 * scenario.projectile.diameter, f64::max);
+    if !shapes.projectile.is_empty() {
+        return around;
+    }
+    let deepest = shapes
+        .crater
+        .iter()
+        .map(|point| point[1])
+        .fold(0.0, f64::max);
+    let bulge = shapes
+        .crater
+        .iter()
+        .rev()
+        .find(|point| point[1] > 0.05 * deepest);
+    bulge.map_or(around, |point| around.max(point[0]))
+}
+
+/// Points of both halves in mm, from the left to the right.
 fn mirrored(points: &[[f64; 2]]) -> Vec<(f64, f64)> {
     let left = points.iter().rev().map(|[r, z]| (-r * 1e3, -z * 1e3));
     left.chain(points.iter().map(|[r, z]| (r * 1e3, -z * 1e3)))
         .collect()
+}
+
+/// The same with a gap where the surface has a hole.
+fn mirrored_surface(points: &[[f64; 2]]) -> Vec<(f64, f64)> {
+    let mut all = mirrored(points);
+    if points.first().is_some_and(|point| point[0] > 0.0) {
+        all.insert(points.len(), (f64::NAN, f64::NAN));
+    }
+    all
 }

@@ -84,13 +84,17 @@ pub(crate) fn spacing(profile: &Profile, part: usize) -> f64 {
     }
 }
 
+/// Length that an element stands for, of a part with this spacing: far from the impact some are longer than most.
+pub(crate) fn reach(element: &ElementState, spacing: f64) -> f64 {
+    spacing.max(element.length)
+}
+
 /// Stress of a profile at ascending places.
 fn stresses(profile: &Profile, places: &[f64], spacings: &[f64]) -> Vec<f64> {
     let elements = &profile.elements;
-    // Elements far from the impact may be longer than most.
     let reach = |element: &ElementState| {
         let usual = spacings.get(element.part).copied().unwrap_or(0.0);
-        usual.max(element.length)
+        reach(element, usual)
     };
     let at = |place: f64| {
         let after = elements.partition_point(|e| e.initial_position < place);

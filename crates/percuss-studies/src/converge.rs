@@ -88,6 +88,8 @@ pub enum ConvergenceStatus {
     },
     /// The finest meshes agree to rounding.
     Exact,
+    /// Less than three meshes, of a study that was stopped.
+    TooFew,
     /// The differences shrink but change their sign.
     Oscillating {
         /// Largest difference among the three finest meshes, as a fraction of the finest value.
@@ -163,7 +165,7 @@ impl ConvergenceStatus {
             Self::Converging { order, .. }
             | Self::Unconfirmed { order, .. }
             | Self::Vanishing { order, .. } => Some(order),
-            Self::Exact | Self::Oscillating { .. } | Self::Diverging { .. } => None,
+            Self::Exact | Self::TooFew | Self::Oscillating { .. } | Self::Diverging { .. } => None,
         }
     }
 
@@ -171,6 +173,7 @@ impl ConvergenceStatus {
     pub fn describe(&self) -> String {
         match *self {
             Self::Exact => "the finest meshes agree to rounding".to_owned(),
+            Self::TooFew => "less than three meshes show no convergence".to_owned(),
             Self::Vanishing { limit, .. } => format!(
                 "does not converge to a result: its limit is {:.1} % of the finest value, so it measures the mesh",
                 100.0 * limit
@@ -245,25 +248,32 @@ pub fn study(
     levels: u32,
     control: &mut Control<'_>,
 ) -> Result<(MeshStudy, Vec<RunResult>), Error> {
-    let mut meshes = Vec::new();
     let mut results = Vec::new();
+    run_meshes(model, scenario, levels, control, &mut results)?;
+    Ok((MeshStudy::new(scenario, &results), results))
+}
+
+/// Adds the results on `levels` meshes, as [`study`] runs them, to a list: of a run that fails or is stopped it has those before.
+///
+/// # Errors
+/// Those of [`run`].
+pub fn run_meshes(
+    model: &dyn Model,
+    scenario: &Scenario,
+    levels: u32,
+    control: &mut Control<'_>,
+    results: &mut Vec<RunResult>,
+) -> Result<(), Error> {
     for level in 0..levels {
         let refined = model.refined(scenario, REFINEMENT.saturating_pow(level));
         let result = run(model, refined.as_ref().unwrap_or(scenario), control)?;
-        let (Some(_), Some(numerics)) = (&refined, &result.numerics) else {
-            return Err(Error::not_applicable(
-                model.name(),
-                "it has no mesh to refine",
-            ));
-        };
-        meshes.push(Mesh {
-            projectile_elements: numerics.elements.0,
-            target_elements: numerics.elements.1,
-            steps: numerics.steps,
-        });
+        if refined.is_none() || result.numerics.is_none() {
+            let reason = "it has no mesh to refine";
+            return Err(Error::not_applicable(model.name(), reason));
+        }
         results.push(result);
     }
-    Ok((MeshStudy::new(scenario, meshes, &results), results))
+    Ok(())
 }
 
 /// The result numbers whose convergence is evaluated.
@@ -276,8 +286,16 @@ const QUANTITIES: [&str; 5] = [
 ];
 
 impl MeshStudy {
-    /// The study of a case's results on meshes from coarse to fine.
-    pub fn new(scenario: &Scenario, meshes: Vec<Mesh>, results: &[RunResult]) -> Self {
+    /// The study of a case's results on meshes from coarse to fine; results without a mesh are left out.
+    pub fn new(scenario: &Scenario, results: &[RunResult]) -> Self {
+        let meshes = results.iter().filter_map(|result| {
+            let numerics = result.numerics.as_ref()?;
+            Some(Mesh {
+                projectile_elements: numerics.elements.0,
+                target_elements: numerics.elements.1,
+                steps: numerics.steps,
+            })
+        });
         let quantities = QUANTITIES
             .iter()
             .filter_map(|name| {
@@ -287,12 +305,15 @@ impl MeshStudy {
                 Some(Quantity {
                     name: ResultUnit::split(number.name).0,
                     unit: number.unit.symbol,
-                    status: ConvergenceStatus::of(&values)?,
+                    status: ConvergenceStatus::of(&values).unwrap_or(ConvergenceStatus::TooFew),
                     values,
                 })
             })
             .collect();
-        Self { meshes, quantities }
+        Self {
+            meshes: meshes.collect(),
+            quantities,
+        }
     }
 }
 

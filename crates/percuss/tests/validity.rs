@@ -6,7 +6,7 @@ use percuss::validity::{
 use percuss::{
     Scenario, case,
     material::MaterialClass,
-    model::MODELS,
+    model::{Control, MODELS},
     regime::{ProjectileRegime, Regime, TargetKind},
 };
 
@@ -51,6 +51,25 @@ fn a_target_that_is_pushed_out_and_holds_is_no_result() {
         "rigid_wall = true",
     ] {
         assert!(!warned(held, 9e-3), "{held}");
+    }
+}
+
+/// The steps of an integration are parts of the time in which a rod advances by its diameter.
+#[test]
+fn rods_of_a_million_diameters_are_not_integrated() {
+    let slender = |length: &str| {
+        let text = format!(
+            "projectile = {{ material = 'tungsten', length = '{length}', diameter = '10 um', impact_velocity = '4 km/s' }}\n\
+             target = {{ material = 'copper', thickness = 'semi-infinite' }}\n"
+        );
+        case::load_str("slender", &text).unwrap()
+    };
+    for name in ["momentum_balance", "energy_balance", "walker_anderson"] {
+        let model = MODELS.iter().find(|model| model.name() == name).unwrap();
+        let run = |length| model.run(&slender(length), &mut Control::default());
+        assert!(run("9.9 cm").unwrap().depth_of_penetration.unwrap() > 0.1);
+        let error = run("10 m").unwrap_err().to_string();
+        assert!(error.contains("up to 10000 diameters"), "{name}: {error}");
     }
 }
 

@@ -1,10 +1,14 @@
 //! `percuss converge`: mesh convergence of a case.
 
-use std::path::PathBuf;
+use std::{
+    ops::ControlFlow,
+    path::PathBuf,
+    sync::atomic::{AtomicBool, Ordering},
+};
 
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
-    Scenario, case,
+    Error, Scenario, case,
     converge::{self, ConvergenceStatus, MeshStudy},
     model::{self, Control, Estimate, MODELS, Model},
     units::significant,
@@ -25,6 +29,7 @@ use crate::{
     run_folder::RunFolder,
     table::blocks,
     terminal::{bold, width, wrap},
+    workers::{self, unless_stopped},
 };
 
 const LONG_ABOUT: &str = "\
@@ -41,7 +46,7 @@ A result does not converge if its differences do not decrease, or if its
 extrapolated value is negligible against its value.
 
 With --out DIR the study is written as convergence.json and its figures as SVG
-and PNG.";
+and PNG. Ctrl-C ends it with the meshes that are complete.";
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -50,7 +55,7 @@ Examples:
   percuss converge my-case/scenario.toml --json
 
 Exit codes: 0 ok, 2 bad input or a model that does not apply, 3 numerical
-failure, 4 a file could not be read or written";
+failure, 4 a file could not be read or written, 130 stopped";
 
 /// Refine the mesh of a case and assess its convergence
 #[derive(Debug, Args)]
@@ -77,7 +82,7 @@ pub struct Converge {
     pub figures: FigureArgs,
 }
 
-/// Result of the command and the files that it wrote.
+/// Result of the command and the files that it wrote; a study that was stopped has less meshes.
 struct ConvergenceOutput {
     scenario: Scenario,
     study: MeshStudy,
@@ -86,20 +91,36 @@ struct ConvergenceOutput {
 
 impl Converge {
     pub fn run(&self) -> Result<(), Failure> {
+        let stop = workers::stop_on_request();
         let mut progress = Progress::new(true);
-        let found = self.find(
-            &VirtualFiles::default(),
-            &mut progress.callback(),
-            &|cost| cost::tell(cost, false),
-        );
+        let mut report = |part: f64, words: &str| {
+            progress.update(part, words);
+            unless_stopped(&stop, ControlFlow::Continue(()))
+        };
+        let found = self.find(&VirtualFiles::default(), &mut report, &stop, &|cost| {
+            cost::tell(cost, false);
+        });
         progress.finish();
+        let found = found?;
+        self.print(&found)?;
+        match found.study.meshes.len() {
+            complete if complete < self.levels as usize => Err(Failure::StudyStopped {
+                complete,
+                wanted: self.levels,
+                runs: "meshes",
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    fn print(&self, found: &ConvergenceOutput) -> Result<(), Failure> {
         let ConvergenceOutput {
             scenario,
             study,
             files,
-        } = found?;
+        } = found;
         if self.json {
-            return output::print_json(&study);
+            return output::print_json(study);
         }
         let mut text = format!(
             "{}\n{}\n\n",
@@ -114,9 +135,9 @@ impl Converge {
                 0
             )
         );
-        text += &table(&study);
-        text += &statuses(&study);
-        FileList::new(&files).print_under(text)
+        text += &table(study);
+        text += &statuses(study);
+        FileList::new(files).print_under(text)
     }
 
     /// Output of --json.
@@ -125,7 +146,7 @@ impl Converge {
         virtual_files: &VirtualFiles,
         on_progress: ProgressCallback<'_>,
     ) -> Result<Response, Failure> {
-        let found = self.find(virtual_files, on_progress, &|_| ())?;
+        let found = self.find(virtual_files, on_progress, &AtomicBool::new(false), &|_| ())?;
         Response::json_of(&found.study, found.files)
     }
 
@@ -133,6 +154,7 @@ impl Converge {
         &self,
         virtual_files: &VirtualFiles,
         on_progress: ProgressCallback<'_>,
+        stop: &AtomicBool,
         tell: &dyn Fn(Estimate),
     ) -> Result<ConvergenceOutput, Failure> {
         let scenario = case::scenario(&virtual_files.read(&self.case)?)?;
@@ -140,7 +162,7 @@ impl Converge {
         let mut folder = RunFolder::wanted(self.out.as_deref(), None, self.figures.formats())?;
         let meshes = (0..self.levels).filter_map(|level| model.refined(&scenario, 1 << level));
         tell(meshes.map(|mesh| cost::of_run(model, &mesh)).sum());
-        let study = self.compute(model, &scenario, on_progress)?;
+        let study = self.compute(model, &scenario, on_progress, stop)?;
         if let Some(folder) = &mut folder {
             folder.put("convergence.json", output::json(&study)?.as_bytes())?;
             let figures: Vec<_> = (0..study.quantities.len())
@@ -155,11 +177,13 @@ impl Converge {
         })
     }
 
+    /// The study, of the meshes that are complete where the user stops it.
     fn compute(
         &self,
         model: &dyn Model,
         scenario: &Scenario,
         on_progress: ProgressCallback<'_>,
+        stop: &AtomicBool,
     ) -> Result<MeshStudy, Failure> {
         let mut report = |now: model::Progress| {
             let words = format!("{:.1} us on the current mesh", now.time * 1e6);
@@ -170,8 +194,16 @@ impl Converge {
             progress: Some(&mut report),
             ..Control::default()
         };
-        let (study, _) = converge::study(model, scenario, self.levels, &mut control)?;
-        Ok(study)
+        let mut results = Vec::new();
+        let ended = converge::run_meshes(model, scenario, self.levels, &mut control, &mut results);
+        match ended {
+            Err(Error::Cancelled { .. }) if stop.load(Ordering::Relaxed) => match results.len() {
+                0 => return Err(Failure::Interrupted("the study")),
+                _ => (),
+            },
+            ended => ended?,
+        }
+        Ok(MeshStudy::new(scenario, &results))
     }
 }
 

@@ -8,7 +8,7 @@ use std::{
 use clap::Args;
 use percuss::{
     case,
-    document::read_text,
+    document::{Document, read_text},
     model::memory::{MEMORY_VARIABLE, set_memory_limit},
 };
 use percuss_serve::{Options, RequestLimits, ServeError, Server, StartCase};
@@ -28,8 +28,8 @@ By default only this machine can open the page. To serve it to other machines,
 give an address, --allow-remote and a token. The connection is not encrypted:
 over a network, use `ssh -L` or a proxy with TLS.
 
-The page reads no files: a case that names material files must have its
-materials in its own `materials` table.";
+Materials and measured curves of files that the case names are put into its
+text. The page itself reads no files.";
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -116,10 +116,10 @@ fn token(path: &Path) -> Result<String, Failure> {
 
 /// Valid case with its name.
 fn start_case(path: &Path) -> Result<StartCase, Failure> {
-    let scenario = case::load(path)?;
+    let document = Document::read(path)?;
     Ok(StartCase {
-        name: scenario.name,
-        text: read_text(path)?,
+        name: case::scenario(&document)?.name,
+        text: case::self_contained(&document)?,
     })
 }
 

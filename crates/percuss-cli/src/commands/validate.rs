@@ -36,7 +36,8 @@ each with its source. Suspect and repeated tests are computed and not counted.
 With --data FILE the tests of a CSV file are used instead; `--data builtin`
 adds those of the program. Required columns: id, kind,
 projectile_material, diameter_mm, length_mm or mass_g, impact_velocity_m_s,
-target_material, measured, unit.
+target_material, measured, unit, and for targets other than `rigid-wall`
+thickness_mm.
 
 With --out DIR the report is written as one HTML page and as Markdown with its
 figures, and the numbers as CSV and Parquet.";

@@ -36,7 +36,7 @@ Every number above, null where a model does not give it, and:
 | `expected_error`, `expected_error_low`, `expected_error_high` | estimated error of the depth: median, 10th and 90th percentile |
 | `band_of`, `band_low`, `band_high` | range that the model gives its main number |
 | `details` | numbers that the model alone has, as JSON |
-| `warnings` | one per line |
+| `warnings` | list of texts, as JSON |
 | `error` | `reason` above, or what is wrong with the case of this row |
 ";
 

@@ -53,6 +53,12 @@ pub(super) fn alias_form(name: &str) -> String {
     name.trim().to_lowercase().replace([' ', '_'], "-")
 }
 
+/// The record where there is just one.
+fn only<'a>(found: impl IntoIterator<Item = &'a MaterialEntry>) -> Option<&'a MaterialEntry> {
+    let mut found = found.into_iter();
+    found.next().filter(|_| found.next().is_none())
+}
+
 /// Materials by id and by family.
 #[derive(Debug, Clone, Default)]
 pub struct Library {
@@ -105,18 +111,23 @@ impl Library {
 
     /// The record with this id, or the recommended one of the family with this name, or the one to which an alias leads.
     ///
-    /// An alias of several families leads nowhere; [`Library::suggestion`] lists them.
+    /// Where none has just this name, case does not matter and a blank or `_` stands for `-`. An alias of several families leads
+    /// nowhere; [`Library::suggestion`] lists them.
     pub fn find(&self, name: &str) -> Option<&MaterialEntry> {
-        let recommended = || {
-            self.iter().find(|entry| {
-                entry.material.recommended && entry.material.family.as_deref() == Some(name)
-            })
-        };
-        let alias = || match self.with_alias(name).as_slice() {
-            [one] => Some(*one),
-            _ => None,
-        };
-        self.entries.get(name).or_else(recommended).or_else(alias)
+        let form = alias_form(name);
+        self.entries
+            .get(name)
+            .or_else(|| self.recommended(|family| family == name))
+            .or_else(|| only(self.with_alias(name)))
+            .or_else(|| only(self.iter().filter(|entry| alias_form(&entry.id) == form)))
+            .or_else(|| self.recommended(|family| alias_form(family) == form))
+    }
+
+    /// The recommended record of the first family that is meant.
+    fn recommended(&self, is_meant: impl Fn(&str) -> bool) -> Option<&MaterialEntry> {
+        self.iter().find(|entry| {
+            entry.material.recommended && entry.material.family.as_deref().is_some_and(&is_meant)
+        })
     }
 
     /// The records to which an alias leads, one of each family: the recommended one where it has the alias. Case does not matter, and a

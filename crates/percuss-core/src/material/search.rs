@@ -234,6 +234,9 @@ mod tests {
             ("wolfram", "tungsten-steinberg"),
             ("ti64", "ti-6al-4v-steinberg"),
             ("2024-t351", "aluminium-2024-t351-woodward"),
+            ("6061-T6", "6061-t6-lesuer"),
+            ("Weldox 460 E", "weldox-460-e-borvik"),
+            ("304_Steinberg", "304-steinberg"),
         ] {
             let found = library.find(alias).map(|entry| entry.id.as_str());
             assert_eq!(found, Some(id), "{alias}");

@@ -188,11 +188,7 @@ impl Projectile {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>) {
         check.quantity("diameter", self.diameter, limits::DIAMETER);
-        check.quantity(
-            "impact_velocity",
-            self.impact_velocity,
-            limits::IMPACT_VELOCITY,
-        );
+        check_impact_velocity(self.impact_velocity, check);
         let allowed = limits::OBLIQUITY.min..=limits::OBLIQUITY.max;
         if let Some(obliquity) = self
             .obliquity
@@ -266,4 +262,23 @@ mod tests {
             .sum();
         assert!((nose.volume(diameter) / sum - 1.0).abs() < 1e-7);
     }
+}
+
+/// Reports a velocity out of range, or one other than zero that is too small.
+fn check_impact_velocity(velocity: Velocity, check: &mut Check<'_>) {
+    let [moving, all] = [limits::MOVING, limits::IMPACT_VELOCITY];
+    if velocity.si() <= 0.0 || velocity.si() > moving.max || moving.allow(velocity.si()) {
+        check.quantity("impact_velocity", velocity, all);
+        return;
+    }
+    check.fail(
+        "impact_velocity",
+        format!("{velocity} is too slow to be computed"),
+        format!(
+            "allowed: {}, or {} to {}",
+            Velocity::new(all.min),
+            Velocity::new(moving.min),
+            Velocity::new(moving.max)
+        ),
+    );
 }

@@ -109,6 +109,7 @@ dimensions! {
     Velocity, OfVelocity, "speed", "a speed", "230 m/s", show ["m/s"], [
         unit("m/s", 1.0, &[]),
         unit("km/s", 1e3, &["mm/us"]),
+        unit("km/h", 1.0 / 3.6, &["kph"]),
         unit("ft/s", 0.3048, &["fps"]),
     ];
     /// A pressure, stress or modulus [Pa].

@@ -24,6 +24,9 @@ pub(super) fn sharp_and_rigid(scenario: &Scenario) -> Option<Refusal> {
         .then(|| "it takes no account of the sharp nose of a rigid projectile".into())
 }
 
+/// Length over diameter up to which every integration ends.
+const MOST_SLENDER: f64 = 10_000.0;
+
 /// A flat-ended rod and the metal that it strikes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LongRod<'a> {
@@ -52,6 +55,21 @@ impl<'a> LongRod<'a> {
             projectile: &rod.material,
             target: &plate.material,
         })
+    }
+
+    /// The rod of a case whose motion is integrated in steps of the time in which it advances by some of its diameter.
+    ///
+    /// # Errors
+    /// More than one layer, or a rod so slender that the steps would not end.
+    pub(super) fn to_integrate(scenario: &'a Scenario) -> Result<Self, Refusal> {
+        let rod = Self::of(scenario).ok_or(NOT_ONE_TARGET)?;
+        match rod.length / rod.diameter {
+            slenderness if slenderness > MOST_SLENDER => Err(Refusal::new(format!(
+                "it takes rods of up to {MOST_SLENDER} diameters, and this one has {}",
+                significant(slenderness, 3)
+            ))),
+            _ => Ok(rod),
+        }
     }
 
     /// Length over all of a projectile of which so much of the flat-ended rod is left [m]: the nose goes first.

@@ -52,7 +52,7 @@ pub(super) fn columns(sweep: &Sweep) -> Vec<Column<SweepRow>> {
     };
     columns.push(text("band_of", band, ""));
     columns.push(text("details", |r| json(&r.details), "[]"));
-    columns.push(text("warnings", |r| r.warnings.join("\n"), ""));
+    columns.push(text("warnings", |r| json(&r.warnings), "[]"));
     columns.push(Column::text("error", |row: &SweepRow| match &row.record {
         Ok(record) => record.reason.clone().unwrap_or_default(),
         Err(reason) => reason.clone(),

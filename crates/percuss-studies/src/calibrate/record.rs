@@ -92,7 +92,7 @@ fn stamped(problem: &Problem, calibration: &Calibration, id: &str, material: Mat
     let of_values = problem.training().map(|value| &value.sources);
     let of_curves = problem.training_curves().map(|curve| &curve.curve.sources);
     for source in of_values.chain(of_curves).flatten() {
-        if !sources.contains(source) {
+        if !source.is_empty() && !sources.contains(source) {
             sources.push(source.clone());
         }
     }

@@ -48,7 +48,9 @@ fn of_models(
         .collect();
     if found.is_empty() {
         let inputs = results.iter().any(|r| r.outcome == LimitOutcome::Input);
-        let note = inputs.then(|| "no model predicts a limit for this case".to_owned());
+        let note = inputs.then(|| {
+            "no model predicts a limit of this case between the velocities searched".to_owned()
+        });
         return (Vec::new(), note);
     }
     let choices = |of: fn(&Scenario) -> Option<Regime>| -> Vec<(&dyn Model, Choice)> {
@@ -86,8 +88,12 @@ fn of_models(
             )
         })
         .collect();
+    let error = match found.len() {
+        1 => "its error is not known",
+        _ => "take the range as its uncertainty",
+    };
     let note = format!(
-        "no model is the first choice for the limit of this kind of case: take the range as its uncertainty{unproven}"
+        "no model is the first choice for the limit of this kind of case: {error}{unproven}"
     );
     (Vec::new(), Some(note))
 }

@@ -13,6 +13,12 @@ pub(crate) fn check_values(axes: &[Axis], template: &Template, check: &mut Check
                 continue;
             };
             if let Some(diagnostic) = diagnostics.into_iter().next() {
+                let said = &diagnostic.message;
+                if said.starts_with("unknown key") || said.ends_with("was renamed") {
+                    let place = format!("parameter.{i}.key");
+                    check.fail(&place, diagnostic.message, diagnostic.help);
+                    return;
+                }
                 let of = match diagnostic.key.as_str() {
                     "" => axis.key.clone(),
                     key => key.to_owned(),

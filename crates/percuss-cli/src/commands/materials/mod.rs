@@ -192,6 +192,14 @@ fn write_file(out: Option<&PathBuf>, text: &str) -> Result<Vec<PathBuf>, Failure
     let Some(out) = out else {
         return Ok(Vec::new());
     };
+    // A pipe would wait for its reader.
+    if fs::metadata(out).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+        return Err(Failure::Write {
+            path: out.clone(),
+            reason: "it is not a regular file".to_owned(),
+            help: "without `--out` the text is printed".to_owned(),
+        });
+    }
     fs::write(out, text).map_err(|error| Failure::Write {
         path: out.clone(),
         help: match error.kind() {

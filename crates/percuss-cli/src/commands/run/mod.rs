@@ -216,9 +216,10 @@ impl Run {
         self.print(&run_output, &files?, is_planned)?;
         match (was_stopped, run_output.seeds_stopped) {
             (true, _) => Err(Failure::AxisymmetricStopped),
-            (false, true) => Err(Failure::SeedsStopped {
+            (false, true) => Err(Failure::StudyStopped {
                 complete: run_output.seeds.map_or(1, |study| study.seeds.len()),
-                wanted: self.seeds.unwrap_or(1),
+                wanted: self.seeds.unwrap_or(1).into(),
+                runs: "packings",
             }),
             (false, false) => Ok(()),
         }

@@ -13,9 +13,7 @@ use super::{
     cavity_expansion::effective_yield_stress,
     dynamic_yield::mean_flow_stress,
     impact_wave::ImpactWave,
-    long_rod::{
-        LongRod, NOT_ONE_TARGET, detail, never_yields, nothing_moves, rests_on, sharp_and_rigid,
-    },
+    long_rod::{LongRod, detail, never_yields, nothing_moves, rests_on, sharp_and_rigid},
     rod_flow::RodFlow,
 };
 use crate::{
@@ -68,7 +66,7 @@ fn dynamic_factor(material: &Material, rate: f64) -> Option<f64> {
 
 impl EnergyBalance {
     fn motion(scenario: &Scenario) -> Result<(LongRod<'_>, Motion), Refusal> {
-        let rod = LongRod::of(scenario).ok_or(NOT_ONE_TARGET)?;
+        let rod = LongRod::to_integrate(scenario)?;
         let options = &scenario.options.energy_balance;
         let rate = rod.speed / rod.diameter;
         let strength = options

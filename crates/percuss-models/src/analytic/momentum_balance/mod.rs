@@ -9,9 +9,7 @@ use self::{motion::Motion, zone::Zone};
 use super::{
     cavity_expansion::CavityExpansion,
     impact_wave::ImpactWave,
-    long_rod::{
-        LongRod, NOT_ONE_TARGET, detail, never_yields, rests_on, sharp_and_rigid, strength,
-    },
+    long_rod::{LongRod, detail, never_yields, rests_on, sharp_and_rigid, strength},
     rod_flow::RodFlow,
 };
 use crate::{
@@ -54,7 +52,7 @@ const RANGES: &[Range] = &[
 
 impl MomentumBalance {
     fn motion(scenario: &Scenario) -> Result<(LongRod<'_>, Motion), Refusal> {
-        let rod = LongRod::of(scenario).ok_or(NOT_ONE_TARGET)?;
+        let rod = LongRod::to_integrate(scenario)?;
         let options = &scenario.options.momentum_balance;
         let own = strength(
             options.projectile_strength,

@@ -1,5 +1,6 @@
 //! Model `power_balance`: perforation of plates by an upper bound of the power, with the fields' parameters minimised at each step.
 
+mod bulge;
 pub(super) mod fields;
 mod flow;
 mod forces;
@@ -14,7 +15,7 @@ use std::{cell::RefCell, collections::VecDeque};
 use self::{
     fields::HoleStress,
     flow::Flow,
-    motion::{Impact, Perforation},
+    motion::{Impact, Keep, Perforation},
 };
 use super::{
     plate_cavity::PLATES,
@@ -30,6 +31,7 @@ use crate::{
     outcome::{BandQuantity, Detail, Outcome, RunResult, Termination},
     problem::Nose,
     regime::{ProjectileRegime, TargetKind},
+    shapes::Shapes,
     solver::{Control, Model},
     validity::{FirstChoice, FittedTo, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
@@ -207,7 +209,11 @@ impl Model for PowerBalance {
         let limit = ballistic_limit(scenario, &case, &impact);
         let mut result = plate_result(self.name(), "least power", case.speed, limit, 0.0);
         if case.speed > 0.0 {
-            let run = impact.case(case.speed, control.record);
+            let keep = match control.record {
+                true => Keep::Moments,
+                false => Keep::Shape,
+            };
+            let run = impact.case(case.speed, keep);
             describe(&mut result, &impact, &run);
             if control.record {
                 result.history = Some(history::of(
@@ -247,9 +253,15 @@ fn describe(result: &mut RunResult, impact: &Impact, run: &Perforation) {
         detail("elastic deflection", "mm", last.flexure * 1e3),
     ];
     if bulge > NO_BULGE * impact.thickness {
-        result
-            .details
-            .push(detail("radius of the bulge", "mm", last.edge * 1e3));
+        let half = run.bulge.half_radius().map(|radius| {
+            let name = "radius at half the deflection of the rim";
+            detail(name, "mm", radius * 1e3)
+        });
+        result.details.extend(half);
+        result.shapes = Some(Shapes {
+            crater: run.bulge.rings.clone(),
+            projectile: Vec::new(),
+        });
     }
     if impact.nose == Nose::Flat {
         result.details.extend([

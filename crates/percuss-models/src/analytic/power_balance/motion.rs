@@ -1,6 +1,7 @@
 //! Perforation in time: projectile, plug and dish, by steps of least power.
 
 use super::{
+    bulge::Bulge,
     fields::{Dish, HoleStress, Rim, least},
     flow::Flow,
     forces::Forces,
@@ -97,6 +98,19 @@ pub(super) struct Perforation {
     pub stages: [Option<f64>; 3],
     /// All moments, where they were asked for.
     pub moments: Vec<MotionState>,
+    /// Plastic deflection of the plate, unless the end alone was asked for.
+    pub bulge: Bulge,
+}
+
+/// What is kept of a case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Keep {
+    /// Its end.
+    End,
+    /// Its end, and the shape of the plate.
+    Shape,
+    /// All moments, and the shape of the plate.
+    Moments,
 }
 
 /// Steps over the time that the plate's thickness takes at the impact velocity.
@@ -174,7 +188,7 @@ impl Impact {
     }
 
     /// The case at an impact velocity above zero [m/s].
-    pub fn case(&self, speed: f64, record: bool) -> Perforation {
+    pub fn case(&self, speed: f64, keep: Keep) -> Perforation {
         let mut now = MotionState {
             velocities: [speed, 0.0, 0.0],
             edge: 2.0 * self.radius(),
@@ -186,12 +200,18 @@ impl Impact {
             peak_force: 0.0,
             stages: [None; 3],
             moments: Vec::new(),
+            bulge: match self.bulging && keep != Keep::End {
+                true => Bulge::new(self.radius()),
+                false => Bulge::default(),
+            },
         };
         for _ in 0..MOST_STEPS {
+            let before = now.deflection;
             now = self.advance(&now, speed);
+            run.bulge.add(now.edge, now.deflection - before);
             run.peak_force = run.peak_force.max(now.force);
             self.note_stages(&mut run.stages, &now);
-            if record {
+            if keep == Keep::Moments {
                 run.moments.push(now);
             }
             run.perforated = now.sunk + now.slip >= self.passage();
@@ -433,7 +453,7 @@ impl Impact {
     /// or its middle where the root is outside.
     pub fn ballistic_limit(&self, order: f64) -> f64 {
         let exit = |speed: f64| {
-            let run = self.case(speed, false);
+            let run = self.case(speed, Keep::End);
             run.perforated.then(|| run.last.velocities[0].powi(2))
         };
         let (mut low, mut high) = (0.0, order);

@@ -1,12 +1,13 @@
 use std::f64::consts::PI;
 
 use super::{
+    bulge::Bulge,
     fields::{Dish, HoleStress, Layer, Slip, hole, punch, rim},
     flow::{Flow, METALS, Metal, OTHER_METALS, own_melting_heat},
     forces::LAYERS,
     history, impact,
     links::{Body, Row, step},
-    motion::Impact,
+    motion::{Impact, Keep},
 };
 use crate::{
     analytic::plate_impact::PlateImpact,
@@ -132,7 +133,7 @@ fn a_plug_of_constant_shear_has_the_residual_velocity_of_recht_and_ipson() {
             "{thickness} {found} {limit}"
         );
         for speed in [1.2 * limit, 2.0 * limit, 5.0 * limit] {
-            let run = impact.case(speed, false);
+            let run = impact.case(speed, Keep::End);
             let exact = 0.197 / (0.197 + plug) * (speed * speed - limit * limit).sqrt();
             let residual = run.last.velocities[0];
             assert!(
@@ -152,7 +153,7 @@ fn energy_and_momentum_close_at_every_moment() {
         for nose in NOSES {
             for (thickness, speed) in [(4.0, 100.0), (12.0, 60.0), (12.0, 300.0), (40.0, 500.0)] {
                 let impact = of(strength, nose, thickness, "");
-                let run = impact.case(speed, true);
+                let run = impact.case(speed, Keep::Moments);
                 for moment in &run.moments {
                     let energy = history::energy(&impact, moment, speed).residual();
                     let momentum = history::momentum(&impact, moment, speed).residual();
@@ -186,7 +187,7 @@ fn energy_and_momentum_close_at_every_moment() {
 fn the_force_on_a_flat_face_is_that_of_the_punch_at_most() {
     for thickness in [6.0, 20.0, 40.0] {
         let impact = of(PERFECT, NOSES[0], thickness, "");
-        let run = impact.case(400.0, false);
+        let run = impact.case(400.0, Keep::End);
         let most = punch::PRESSURE * 400e6 + 0.5 * 7850.0 * 400.0 * 400.0;
         let force = run.peak_force / impact.area();
         assert!(
@@ -428,7 +429,7 @@ fn exit_velocities_rise_with_impact_velocity() {
     let plate = impact(&scenario, &PlateImpact::of(&scenario).unwrap()).unwrap();
     let mut before = 0.0;
     for speed in 300..340 {
-        let run = plate.case(f64::from(speed), false);
+        let run = plate.case(f64::from(speed), Keep::End);
         let exit = if run.perforated {
             run.last.velocities[0]
         } else {
@@ -446,7 +447,7 @@ fn an_elastic_plate_takes_the_momentum_of_a_slow_impact() {
     for nose in NOSES {
         let impact = of(PERFECT, nose, 2.0, "");
         let speed = 3.0;
-        let run = impact.case(speed, false);
+        let run = impact.case(speed, Keep::End);
         let stiffness = 200e9 * 0.002_f64.powi(3) / 12.0 / (1.0 - 0.09);
         let impedance = 8.0 * (7850.0 * 0.002 * stiffness).sqrt();
         let exact = 0.197 * speed / impedance;
@@ -454,4 +455,24 @@ fn an_elastic_plate_takes_the_momentum_of_a_slow_impact() {
         assert!((found / exact - 1.0).abs() < 0.02, "{nose} {found} {exact}");
         assert!(run.last.deflection == 0.0 && !run.perforated, "{nose}");
     }
+}
+
+/// The plate keeps the sum of its dishes: each a straight line from the rim to its edge.
+#[test]
+fn the_bulge_is_the_sum_of_the_dishes() {
+    let mut bulge = Bulge::new(0.01);
+    bulge.add(0.03, 2e-3);
+    assert!((bulge.half_radius().unwrap() - 0.02).abs() < 1e-9);
+    bulge.add(0.05, 1e-3);
+    for [radius, found] in &bulge.rings {
+        let line = |edge: f64, depth: f64| (depth * (edge - radius) / (edge - 0.01)).max(0.0);
+        let sum = line(0.03, 2e-3) + line(0.05, 1e-3);
+        assert!((found - sum).abs() < 1e-15, "{radius}");
+    }
+    let run = of(PERFECT, "'hemisphere'", 5.0, "").case(100.0, Keep::Shape);
+    let rings = &run.bulge.rings;
+    assert!(run.last.deflection > 1e-3);
+    assert!((rings[0][1] / run.last.deflection - 1.0).abs() < 1e-9);
+    assert!(rings.windows(2).all(|pair| pair[1][1] <= pair[0][1]));
+    assert!(run.moments.is_empty());
 }

@@ -9,9 +9,7 @@ use flow::Flow;
 use motion::Motion;
 
 use super::{
-    long_rod::{
-        LongRod, NOT_ONE_TARGET, detail, nothing_moves, rests_on, sharp_and_rigid, strength,
-    },
+    long_rod::{LongRod, detail, nothing_moves, rests_on, sharp_and_rigid, strength},
     tate::LONG_ROD,
 };
 use crate::{
@@ -50,7 +48,7 @@ fn shock(material: &Material) -> (f64, f64, bool) {
 impl WalkerAnderson {
     /// The rod, what it does, and warnings on what had to be estimated.
     fn motion<'a>(scenario: &'a Scenario) -> Result<(LongRod<'a>, Motion, Vec<String>), Refusal> {
-        let rod = LongRod::of(scenario).ok_or(NOT_ONE_TARGET)?;
+        let rod = LongRod::to_integrate(scenario)?;
         let options = &scenario.options.walker_anderson;
         let (density, target_density) = rod.densities();
         let mut warnings = Vec::new();

@@ -14,6 +14,7 @@ use self::{
 use super::lattice::Solid;
 use crate::{
     Refusal, Scenario,
+    check::limits::MOVING,
     material::{Material, Strength},
     options::{Outline, ParticleContact},
     problem::{Nose, RearFaceCondition},
@@ -31,8 +32,6 @@ const WORK: WorkRate = WorkRate {
 const MASS_TOLERANCE: f64 = 0.01;
 /// Time steps in the largest that is stable, at a Courant number of 1: some 4000 per contact at the default.
 const STEPS: f64 = 1000.0;
-/// Least velocity for the time step of a case in which nothing moves [m/s].
-const LEAST_VELOCITY: f64 = 1e-6;
 
 /// Whether projectile and target are one particle each.
 pub(super) fn is_meant(scenario: &Scenario) -> bool {
@@ -162,7 +161,7 @@ fn law(scenario: &Scenario) -> HertzLaw {
 /// Time step at a Courant number [s], and time of an impact without damping.
 fn times(scenario: &Scenario, courant: f64) -> (f64, f64) {
     let law = law(scenario);
-    let velocity = (scenario.impact_velocity * scenario.obliquity.cos()).max(LEAST_VELOCITY);
+    let velocity = (scenario.impact_velocity * scenario.obliquity.cos()).max(MOVING.min);
     let approach = law.largest_approach(velocity);
     let stable = 2.0 / law.frequency(approach);
     (courant * stable / STEPS, CONTACT_TIME * approach / velocity)
