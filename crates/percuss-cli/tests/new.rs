@@ -177,9 +177,16 @@ fn the_example_options_of_a_new_case_can_be_written() {
     let together = lines.filter(|line| !line.contains("instead of"));
     let (planar, rod): (Vec<&str>, Vec<&str>) =
         together.partition(|line| line.contains("geometry \"planar\" only"));
+    let (stress, rod): (Vec<&str>, Vec<&str>) = rod
+        .into_iter()
+        .partition(|line| line.contains("formulation \"particle-stress\" only"));
     let examples = [
         rod.join("\n"),
         format!("[fdm]\ngeometry = \"planar\"\n{}", planar.join("\n")),
+        format!(
+            "[particles]\nformulation = \"particle-stress\"\n{}",
+            stress.join("\n")
+        ),
         "[forrestal]\ncavity = \"incompressible\"".to_owned(),
     ];
     for example in examples {

@@ -37,6 +37,9 @@ pub struct EnergyLedger {
     pub step_changes: f64,
     /// Lost between particles and grid: motion finer than the grid; it vanishes with the cell size.
     pub transfer: f64,
+    /// Energy of the forces that hold particles to the mean gradient of their deformation, stored and lost.
+    #[serde(default)]
+    pub stabilisation: f64,
     /// Kinetic energy of the plate around a plug.
     #[serde(default)]
     pub kinetic_plate: f64,
@@ -50,7 +53,7 @@ pub struct EnergyLedger {
 
 impl EnergyLedger {
     /// Labels and values of all lines but the initial energy, in reading order.
-    pub fn lines(&self) -> [(&'static str, f64); 17] {
+    pub fn lines(&self) -> [(&'static str, f64); 18] {
         [
             ("kinetic, projectile", self.kinetic_projectile),
             ("kinetic, target", self.kinetic_target),
@@ -69,6 +72,7 @@ impl EnergyLedger {
             ("plastic, plate", self.plastic_plate),
             ("particles to grid", self.transfer),
             ("changes of the time step", self.step_changes),
+            ("stabilisation", self.stabilisation),
         ]
     }
 

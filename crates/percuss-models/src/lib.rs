@@ -8,6 +8,7 @@ pub mod chain;
 pub mod fdm;
 pub mod model;
 pub mod particles;
+mod solid;
 
 // What the models use of the core.
 #[cfg(test)]

@@ -188,7 +188,7 @@ fn csv_and_parquet_hold_the_same_columns_and_values() {
     assert_eq!(files, expected.map(|name| folder.path().join(name)));
 
     let (header, rows) = read_csv(&files[0]);
-    assert_eq!(header.len(), 40);
+    assert_eq!(header.len(), 41);
     assert_eq!(header[..3], ["time_us", "step", "tip_velocity_m_s"]);
     for name in [
         "energy_kinetic_projectile_j",

@@ -215,6 +215,7 @@ cases! {
     lattice_strip_on_wall: "lattice-strip-on-wall",
     rigid_on_glass_plane: "rigid-on-glass-plane",
     cracks_in_glass_plate: "cracks-in-glass-plate",
+    plane_strain_taylor: "plane-strain-taylor",
     oblique_strip_on_glass: "oblique-strip-on-glass",
     ball_on_glass_plate: "ball-on-glass-plate",
     cracks_from_two_notches: "cracks-from-two-notches",

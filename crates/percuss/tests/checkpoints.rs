@@ -28,6 +28,8 @@ const CASES: &[(&str, &str, &str)] = &[
     ("disc", "particles", DISC),
     ("bonds that fail by their stress", "particles", BY_STRESS),
     ("balls with friction", "particles", BALLS),
+    ("strip of metal on a wall", "particles", METAL_STRIP),
+    ("metal under a rigid nose", "particles", METAL_PLATE),
 ];
 
 const COLUMN: &str = r#"
@@ -132,6 +134,19 @@ const BY_STRESS: &str = concat!(
 "#,
     hard_and_brittle!()
 );
+const METAL_STRIP: &str = r#"
+    projectile = { material = "copper", length = "12 mm", diameter = "4 mm", impact_velocity = "200 m/s" }
+    target = { rigid_wall = true }
+    particles = { formulation = "particle-stress", packing = "irregular", end_time = "15 us" }
+"#;
+const METAL_PLATE: &str = concat!(
+    r#"
+    projectile = { material = "hard", length = "10 mm", diameter = "6 mm", impact_velocity = "200 m/s", nose = "hemisphere", obliquity = "20 deg" }
+    target = { material = "ofhc-copper-johnson-cook", thickness = "6 mm", back_face = "free" }
+    particles = { formulation = "particle-stress", width = "30 mm", equation_of_state = "mie-gruneisen", end_time = "10 us" }
+"#,
+    hard_and_brittle!()
+);
 const PLUG: &str = include_str!("../../../cases/weldox-460e-12mm-blunt/scenario.toml");
 const FAILURE: &str = include_str!("../../../cases/spall-two-plates/scenario.toml");
 const CAVITY: &str = r#"
@@ -156,7 +171,11 @@ const SPALL: &str = r#"
 
 fn scenario(text: &str) -> Scenario {
     // Histories at gauges continue too.
-    let gauges = "[[gauges]]\nposition = '-1 mm'\n[[gauges]]\nposition = '2 mm'\n";
+    let second = match text.contains("rigid_wall") {
+        true => "-2 mm",
+        false => "2 mm",
+    };
+    let gauges = format!("[[gauges]]\nposition = '-1 mm'\n[[gauges]]\nposition = '{second}'\n");
     case::load_str("checkpoints", &format!("{text}\n{gauges}")).unwrap()
 }
 

@@ -57,6 +57,32 @@ fn steps_of_a_lattice_are_estimated() {
     assert!((0.2..5.0).contains(&ratio), "{ratio}");
 }
 
+/// Metals in plane strain: a strip on a wall, below and at its largest deformations, and a plate under a round nose.
+#[test]
+fn steps_of_particles_with_a_stress_are_estimated() {
+    let on_wall = |velocity: f64, packing: &str| {
+        format!(
+            "projectile = {{ material = 'copper', length = '12 mm', diameter = '4 mm', impact_velocity = '{velocity} m/s' }}\n\
+             target.rigid_wall = true\n\
+             particles = {{ formulation = 'particle-stress', packing = '{packing}' }}\n"
+        )
+    };
+    let plate = "projectile = { material = 'hard', length = '10 mm', diameter = '6 mm', impact_velocity = '100 m/s', nose = 'hemisphere' }\n\
+         target = { material = 'copper', thickness = '6 mm', back_face = 'free' }\n\
+         particles = { formulation = 'particle-stress', width = '40 mm' }\n\
+         materials.hard = { name = 'Elastic', density = '7800 kg/m3', youngs_modulus = '200 GPa', poissons_ratio = 0.3, strength.elastic = {} }\n";
+    for text in [
+        on_wall(50.0, "hexagonal"),
+        on_wall(150.0, "irregular"),
+        plate.to_owned(),
+    ] {
+        let scenario = case::load_str("metal", &text).unwrap();
+        let ratio = ratio("particles", &scenario).unwrap();
+        println!("{ratio:.2}\n{text}");
+        assert!((0.2..5.0).contains(&ratio), "{ratio}\n{text}");
+    }
+}
+
 /// Walks of valid options that would take hours say so, and those that end early do not.
 #[test]
 fn cost_follows_the_options() {

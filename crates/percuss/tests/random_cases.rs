@@ -229,13 +229,56 @@ fn what_was_found_keeps_the_rules() {
     }
 }
 
+/// A metal in plane strain, whose particles have a stress: a strip on a wall, or a plate under a rigid projectile.
+fn any_metal() -> impl Strategy<Value = String> {
+    let packing = select(vec!["hexagonal", "irregular"]);
+    let options = (
+        packing,
+        0.1..0.6_f64,
+        select(vec!["linear", "mie-gruneisen"]),
+        any::<bool>(),
+        any::<bool>(),
+    );
+    let case = (
+        material(),
+        10.0..1000.0_f64,
+        any::<bool>(),
+        nose(),
+        0.0..60.0_f64,
+    );
+    (case, options).prop_map(|((material, velocity, on_wall, (nose, length), angle), options)| {
+        let (packing, courant, state, rate, heat) = options;
+        let length = 6.0 * (length + 1.0);
+        let particles = format!(
+            "[particles]\nformulation = \"particle-stress\"\nspacing = \"0.8 mm\"\npacking = \"{packing}\"\ncourant = {courant:.3}\nfracture = false\n\
+             equation_of_state = \"{state}\"\nrate_effects = {rate}\nadiabatic_heating = {heat}\nmax_steps = 400\n"
+        );
+        match on_wall {
+            true => format!(
+                "projectile = {{ material = \"{material}\", length = \"12 mm\", diameter = \"5 mm\", impact_velocity = \"{velocity:.3} m/s\" }}\n\
+                 target.rigid_wall = true\n{particles}"
+            ),
+            false => format!(
+                "[projectile]\nmaterial = \"hard\"\nlength = \"{length:.3} mm\"\ndiameter = \"5 mm\"\nimpact_velocity = \"{velocity:.3} m/s\"\n\
+                 obliquity = \"{angle:.2} deg\"\n{nose}[target]\nmaterial = \"{material}\"\nthickness = \"6 mm\"\nback_face = \"free\"\n\
+                 {particles}width = \"30 mm\"\n[materials.hard]\nname = \"Elastic\"\ndensity = \"7800 kg/m3\"\nyoungs_modulus = \"200 GPa\"\n\
+                 poissons_ratio = 0.3\nstrength.elastic = {{}}\n"
+            ),
+        }
+    })
+}
+
 /// So many cases of a seed.
 pub fn texts(cases: u64, seed: u64) -> Vec<String> {
+    drawn(&any_case(), cases, seed)
+}
+
+/// So many texts of a kind, of a seed.
+fn drawn(strategy: &impl Strategy<Value = String>, cases: u64, seed: u64) -> Vec<String> {
     let mut bytes = [0; 32];
     bytes[..8].copy_from_slice(&seed.to_le_bytes());
     let random = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
     let mut runner = TestRunner::new_with_rng(Config::default(), random);
-    let strategy = any_case();
     (0..cases)
         .map(|_| strategy.new_tree(&mut runner).unwrap().current())
         .collect()
@@ -249,7 +292,23 @@ fn from_environment(name: &str, default: u64) -> u64 {
 fn valid_cases_keep_the_invariants_in_every_model() {
     let cases = from_environment("PERCUSS_CASES", CASES);
     let seed = from_environment("PERCUSS_SEED", 1);
-    let texts = texts(cases, seed);
+    let slow = |model: &dyn Model, i: usize| {
+        model.cost() == CostClass::Minutes && !(i as u64).is_multiple_of(AXISYMMETRIC)
+    };
+    keep_the_invariants(&texts(cases, seed), |model, i| !slow(model, i));
+}
+
+#[test]
+fn metals_in_plane_strain_keep_the_invariants() {
+    let cases = from_environment("PERCUSS_CASES", CASES) / AXISYMMETRIC;
+    let seed = from_environment("PERCUSS_SEED", 1);
+    keep_the_invariants(&drawn(&any_metal(), cases, seed), |model, _| {
+        model.name() == "particles"
+    });
+}
+
+/// Runs cases by the models that are asked for a case of a number.
+fn keep_the_invariants(texts: &[String], asks: impl Fn(&dyn Model, usize) -> bool + Sync) {
     let ends: Mutex<BTreeMap<(&str, String), u64>> = Mutex::default();
     let failures: Mutex<Vec<String>> = Mutex::default();
     texts.par_iter().enumerate().for_each(|(i, text)| {
@@ -261,8 +320,7 @@ fn valid_cases_keep_the_invariants_in_every_model() {
             }
         };
         for model in MODELS {
-            let slow = model.cost() == CostClass::Minutes;
-            if slow && !(i as u64).is_multiple_of(AXISYMMETRIC) {
+            if !asks(*model, i) {
                 continue;
             }
             match check(*model, &scenario) {

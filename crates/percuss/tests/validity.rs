@@ -340,3 +340,41 @@ fn every_model_says_what_it_is_made_for() {
         }
     }
 }
+
+/// Particles with a stress take what yields, and refuse what they would leave out: cracks, several layers, an equation of state that is not there.
+#[test]
+fn particles_with_a_stress_refuse_what_they_leave_out() {
+    let refused = |target: &str, options: &str| {
+        let text = format!(
+            "projectile = {{ material = 'hard', length = '10 mm', diameter = '6 mm', impact_velocity = '50 m/s' }}\n\
+             target = {{ {target} }}\nparticles = {{ formulation = 'particle-stress', max_steps = 1 {options} }}\n\
+             [materials.hard]\nname = 'Elastic'\ndensity = '8000 kg/m3'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\nstrength.elastic = {{}}\n"
+        );
+        let scenario = case::load_str("metal", &text).unwrap();
+        let particles = percuss::model::model("particles").unwrap();
+        match percuss::model::run(particles, &scenario, &mut Default::default()) {
+            Err(percuss::Error::NotApplicable { refusal, .. }) => refusal.to_string(),
+            other => other.map(|_| "taken".to_owned()).unwrap(),
+        }
+    };
+    let plate = |material: &str| format!("material = '{material}', thickness = '5 mm'");
+    let glass = plate("soda-lime-glass-float");
+    for (target, options, said) in [
+        (plate("copper"), "", "taken"),
+        (glass.clone(), ", fracture = false", "taken"),
+        (glass, "", "no bond breaks"),
+        (
+            plate("hard"),
+            ", equation_of_state = 'mie-gruneisen'",
+            "equation of state",
+        ),
+        (
+            "layers = [{ material = 'copper', thickness = '2 mm' }, { material = 'copper', thickness = '2 mm' }]".to_owned(),
+            "",
+            "layered target",
+        ),
+    ] {
+        let found = refused(&target, options);
+        assert!(found.contains(said), "{target}: {found}");
+    }
+}

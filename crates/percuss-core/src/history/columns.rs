@@ -89,6 +89,7 @@ pub static SAMPLE_COLUMNS: &[HistoryColumn<Sample>] = columns! { Sample:
     "energy_plastic_plate" J Number energy.plastic_plate, "Plastic work of bending the plate around a plug.";
     "energy_particles_to_grid" J Number energy.transfer, "Loss between particles and grid; it vanishes with the cell size.";
     "energy_changes_of_the_time_step" J Number energy.step_changes, "Taken by changes of the time step; it vanishes with the square of the step.";
+    "energy_stabilisation" J Number energy.stabilisation, "Energy of the forces that hold particles to the mean gradient of their deformation, stored and lost.";
     "momentum_initial" N_S Number momentum.initial, "Momentum at the start.";
     "momentum_projectile" N_S Number momentum.projectile, "Momentum of the projectile.";
     "momentum_target" N_S Number momentum.target, "Momentum of the target.";

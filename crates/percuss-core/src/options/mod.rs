@@ -48,7 +48,8 @@ pub use lanz_odermatt::LanzOdermattOptions;
 pub use momentum_balance::MomentumBalanceOptions;
 pub use number_or_name::{ConstraintFactor, ErosionStrain};
 pub use particles::{
-    FailureCriterion, Notch, Outline, PackingKind, ParticleContact, ParticlesOptions, Space,
+    FailureCriterion, Formulation, Notch, Outline, PackingKind, ParticleContact, ParticlesOptions,
+    Space,
 };
 pub use plate_cavity::{CavityShape, PlateCavityOptions};
 pub use plugging::PluggingOptions;

@@ -3,7 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::defaults::{MAX_STEPS, defaults};
+use super::{
+    ArtificialViscosity,
+    axi::Eos,
+    defaults::{MAX_STEPS, defaults},
+};
 use crate::{
     check::{Check, Limits, limits},
     problem::Target,
@@ -18,6 +22,8 @@ use crate::{
 pub struct ParticlesOptions {
     /// Plane in which the bodies deform, or space.
     pub space: Option<Space>,
+    /// What the forces between particles follow from.
+    pub formulation: Option<Formulation>,
     /// What projectile and target are made of.
     pub contact: Option<ParticleContact>,
     /// Distance of neighbouring particles [m]; it is reduced until whole rows fill the body.
@@ -44,6 +50,16 @@ pub struct ParticlesOptions {
     pub restitution: Option<f64>,
     /// Coefficient of friction between pieces, or of balls.
     pub friction: Option<f64>,
+    /// Equation of state of particles with a stress.
+    pub equation_of_state: Option<Eos>,
+    /// Artificial viscosity of particles with a stress, in compression.
+    pub artificial_viscosity: Option<ArtificialViscosity>,
+    /// Whether strength laws of particles with a stress see the strain rate.
+    pub rate_effects: Option<bool>,
+    /// Whether plastic work heats particles with a stress.
+    pub adiabatic_heating: Option<bool>,
+    /// Fraction of plastic work that becomes heat.
+    pub heat_fraction: Option<f64>,
     /// Time step as a part of the largest stable one.
     pub courant: Option<f64>,
     /// Time at which a run is ended [s].
@@ -64,6 +80,18 @@ pub enum Space {
     /// Bodies in space. Poisson's ratio up to 0.4.
     #[serde(rename = "3d")]
     ThreeDimensional,
+}
+
+/// What the forces between particles follow from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Formulation {
+    /// Springs between neighbours: elastic and brittle solids.
+    #[default]
+    Springs,
+    /// The stress of every particle by the strength law of its material: metals that yield, of any Poisson's ratio, in plane strain. Nothing
+    /// breaks.
+    ParticleStress,
 }
 
 /// What starts the softening of a bond.
@@ -184,6 +212,18 @@ defaults! { ParticlesOptions, particles_in_schema {
     outline: Outline = Outline::Plate;
     /// What projectile and target are made of.
     contact: ParticleContact = ParticleContact::Lattice;
+    /// What the forces between particles follow from.
+    formulation: Formulation = Formulation::Springs;
+    /// Equation of state of particles with a stress.
+    equation_of_state: Eos = Eos::Linear;
+    /// Artificial viscosity of particles with a stress.
+    artificial_viscosity: ArtificialViscosity = ArtificialViscosity { linear: 0.3, quadratic: 1.2 };
+    /// Whether strength laws of particles with a stress see the strain rate.
+    rate_effects: bool = true;
+    /// Whether plastic work heats particles with a stress.
+    adiabatic_heating: bool = true;
+    /// Fraction of plastic work that becomes heat.
+    heat_fraction: f64 = 0.9;
     /// Time step as a part of the largest stable one.
     courant: f64 = 0.5;
     /// Time steps after which a run is ended.
@@ -224,11 +264,18 @@ impl ParticlesOptions {
             ("softening", self.softening, SOFTENING),
             ("restitution", self.restitution, RESTITUTION),
             ("friction", self.friction, FRICTION),
+            ("heat_fraction", self.heat_fraction, limits::HEAT_FRACTION),
         ] {
             if let Some(number) = number {
                 check.number(key, number, limits);
             }
         }
+        if let Some(viscosity) = self.artificial_viscosity {
+            let mut check = check.within("artificial_viscosity");
+            check.number("linear", viscosity.linear, limits::VISCOSITY);
+            check.number("quadratic", viscosity.quadratic, limits::VISCOSITY);
+        }
+        self.check_formulation(check);
         match self.contact() {
             ParticleContact::Hertz => self.check_balls(check),
             ParticleContact::Lattice => {
@@ -247,6 +294,58 @@ impl ParticlesOptions {
         }
         self.check_outline(check, target);
         self.check_notches(check);
+    }
+
+    /// Reports keys without effect on springs, or on particles with a stress.
+    fn check_formulation(&self, check: &mut Check<'_>) {
+        if self.formulation() == Formulation::Springs {
+            for (key, given) in [
+                ("equation_of_state", self.equation_of_state.is_some()),
+                ("artificial_viscosity", self.artificial_viscosity.is_some()),
+                ("rate_effects", self.rate_effects.is_some()),
+                ("adiabatic_heating", self.adiabatic_heating.is_some()),
+                ("heat_fraction", self.heat_fraction.is_some()),
+            ] {
+                if given {
+                    let message = format!("`{key}` has no effect: springs are elastic");
+                    let remedy = "remove the key, or give `formulation = \"particle-stress\"`";
+                    check.fail(key, message, remedy);
+                }
+            }
+            return;
+        }
+        for (key, given) in [
+            ("fracture", self.fracture == Some(true)),
+            ("notches", self.notches.is_some()),
+            ("softening", self.softening.is_some()),
+            ("failure_criterion", self.failure_criterion.is_some()),
+            ("restitution", self.restitution.is_some()),
+            ("friction", self.friction.is_some()),
+            ("contact", self.contact() == ParticleContact::Hertz),
+        ] {
+            if given {
+                let message = format!(
+                    "`{key}` is not for `formulation = \"particle-stress\"`: nothing breaks, and the contact has no friction"
+                );
+                let remedy = "remove the key, or give `formulation = \"springs\"`";
+                check.fail(key, message, remedy);
+            }
+        }
+        if self.space() != Space::PlaneStrain {
+            let message = format!(
+                "`formulation = \"particle-stress\"` is for plane strain, and not for {}",
+                self.space().describe()
+            );
+            check.fail(
+                "space",
+                message,
+                "allowed: \"plane-strain\"; or remove the key",
+            );
+        }
+        if self.heat_fraction.is_some() && self.adiabatic_heating == Some(false) {
+            let message = "`heat_fraction` has no effect without `adiabatic_heating`";
+            check.fail("heat_fraction", message, "remove one of the two keys");
+        }
     }
 
     /// Reports keys that balls of one particle do not have.

@@ -53,6 +53,11 @@ pub trait Model: Sync {
     /// The regime that it is made for.
     fn validity(&self) -> &'static ValidityDomain;
 
+    /// The regime that it takes with the options of a case, where these widen or narrow it.
+    fn validity_for(&self, _: &Scenario) -> &'static ValidityDomain {
+        self.validity()
+    }
+
     /// Order of the time that a run takes.
     fn cost(&self) -> CostClass {
         CostClass::Analytic
@@ -185,7 +190,7 @@ pub fn applicability_in(
     scenario: &Scenario,
     regime: &Regime,
 ) -> Result<Vec<String>, Refusal> {
-    match model.validity().applicability(scenario, regime) {
+    match model.validity_for(scenario).applicability(scenario, regime) {
         Applicability::Outside(refusal) => Err(refusal),
         Applicability::Inside(warnings) => match model.not_applicable(scenario) {
             Some(refusal) => Err(refusal),

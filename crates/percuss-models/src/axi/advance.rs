@@ -8,13 +8,13 @@
 use super::{
     block::Block,
     body::{Chunk, Pass, Sums, Task},
-    deform::Work,
     field::Field,
-    law::Law,
     mesh::{Places, cell_lengths},
-    rates::Rates,
 };
-use crate::lanes::{LANES, Lanes, lanes, larger, settled};
+use crate::{
+    lanes::{LANES, Lanes, lanes, larger, settled},
+    solid::{Law, MaterialPoints, Rates, Work},
+};
 
 /// Moves and deforms the particles of a chunk; a time step of 0 leaves them as they are.
 ///
@@ -224,14 +224,14 @@ impl LaneSums {
         let kinetic = block.kinetic_energy(places, pass.mesh.cell);
         let wave_squared = law.wave_speed_squared(block);
         let [radius, depth] = block.position;
-        let Block {
+        let MaterialPoints {
             mass,
             pressure,
             damage,
             plastic_strain,
-            velocity: [v_r, v_z],
             ..
-        } = *block;
+        } = block.points;
+        let [v_r, v_z] = block.velocity;
         let (limits, [most_damage, most_strain]) = (pass.limits, law.erosion());
         let stays = settled(lanes(|l| {
             // A comparison with what is no number fails, so this finds those too.

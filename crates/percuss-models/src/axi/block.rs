@@ -1,15 +1,16 @@
 //! Eight particles side by side, so that one instruction works on all of them.
 
+use std::ops::{Deref, DerefMut};
+
 use super::{
     field::Field,
     kernel::Stencils,
-    law::Law,
     mesh::Places,
     transfer::{Motion, gather},
 };
 use crate::{
-    lanes::{LANES, Lanes, PerLane, each_of, lanes, one, settled},
-    material::{FlowState, YieldPoint},
+    lanes::{LANES, Lanes, each_of, lanes, one, settled},
+    solid::{Law, MaterialPoints, set_one},
     solver::Particle,
 };
 
@@ -23,20 +24,27 @@ pub(super) struct Block {
     pub(super) position: [Lanes; 2],
     pub(super) velocity: [Lanes; 2],
     pub(super) gradient: [Lanes; 4],
-    pub(super) deviator: [Lanes; 3],
-    pub(super) pressure: Lanes,
-    pub(super) viscous_pressure: Lanes,
-    pub(super) mass: Lanes,
-    pub(super) volume: Lanes,
-    pub(super) plastic_strain: Lanes,
-    pub(super) temperature: Lanes,
-    pub(super) energy: Lanes,
-    pub(super) damage: Lanes,
-    pub(super) localization: Lanes,
     pub(super) sides: [Lanes; 2],
     /// Whether a particle is alone in its group: 1 if it is.
     pub(super) lone: Lanes,
-    pub(super) yield_point: YieldPoint<Lanes>,
+    /// Their material, which a block stands for wherever only that is asked for.
+    pub(super) points: MaterialPoints,
+}
+
+impl Deref for Block {
+    type Target = MaterialPoints;
+
+    #[inline(always)]
+    fn deref(&self) -> &MaterialPoints {
+        &self.points
+    }
+}
+
+impl DerefMut for Block {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut MaterialPoints {
+        &mut self.points
+    }
 }
 
 /// Motion of the nodes at the particles of a block in a step.
@@ -58,18 +66,8 @@ impl Block {
             position: one(&self.position, lane),
             velocity: one(&self.velocity, lane),
             gradient: one(&self.gradient, lane),
-            deviator: one(&self.deviator, lane),
-            pressure: self.pressure[lane],
-            viscous_pressure: self.viscous_pressure[lane],
-            mass: self.mass[lane],
-            volume: self.volume[lane],
-            plastic_strain: self.plastic_strain[lane],
-            yield_point: self.yield_point.lane(lane),
-            temperature: self.temperature[lane],
-            energy: self.energy[lane],
-            damage: self.damage[lane],
-            localization: self.localization[lane],
             sides: one(&self.sides, lane),
+            ..self.points.particle(lane)
         }
     }
 
@@ -79,36 +77,8 @@ impl Block {
         set_one(&mut self.position, lane, particle.position);
         set_one(&mut self.velocity, lane, particle.velocity);
         set_one(&mut self.gradient, lane, particle.gradient);
-        set_one(&mut self.deviator, lane, particle.deviator);
-        self.pressure[lane] = particle.pressure;
-        self.viscous_pressure[lane] = particle.viscous_pressure;
-        self.mass[lane] = particle.mass;
-        self.volume[lane] = particle.volume;
-        self.plastic_strain[lane] = particle.plastic_strain;
-        self.yield_point.set_lane(lane, particle.yield_point);
-        self.temperature[lane] = particle.temperature;
-        self.energy[lane] = particle.energy;
-        self.damage[lane] = particle.damage;
-        self.localization[lane] = particle.localization;
         set_one(&mut self.sides, lane, particle.sides);
-    }
-
-    /// What the strength of a particle depends on before it flows.
-    #[inline(always)]
-    pub(super) fn flow_state(&self, lane: usize) -> FlowState {
-        FlowState {
-            plastic_strain: self.plastic_strain[lane],
-            strain_rate: 0.0,
-            temperature: self.temperature[lane],
-            pressure: self.pressure[lane],
-        }
-    }
-
-    /// Pressures with the artificial viscosity [Pa].
-    #[inline(always)]
-    pub(super) fn whole_pressure(&self) -> Lanes {
-        let (pressure, viscous) = (self.pressure, self.viscous_pressure);
-        lanes(|l| pressure[l] + viscous[l])
+        self.points.set_particle(lane, particle);
     }
 
     /// Takes a particle out of the body. Its lane goes on at the origin, where it harms nobody.
@@ -244,13 +214,5 @@ impl Block {
             let affine = 0.25 * cell * cell * (along_r + along_z);
             0.5 * mass[l] * (v_r[l] * v_r[l] + v_z[l] * v_z[l] + affine)
         })
-    }
-}
-
-/// Replaces the numbers of one lane.
-#[inline(always)]
-fn set_one<const N: usize>(all: &mut [Lanes; N], lane: usize, values: [f64; N]) {
-    for (entry, value) in all.iter_mut().zip(values) {
-        entry[lane] = value;
     }
 }

@@ -4,13 +4,13 @@ use super::{
     advance::Scratch,
     block::Block,
     field::{Field, Strip},
-    law::Law,
     localization::localize,
     mesh::Mesh,
 };
 use crate::{
     Error,
     lanes::LANES,
+    solid::Law,
     solver::{Control, Particle},
 };
 

@@ -2,12 +2,10 @@
 
 use std::f64::consts::PI;
 
-use super::{
-    law::Law,
-    mesh::{Axis, Mesh},
-};
+use super::mesh::{Axis, Mesh};
 use crate::{
     Error,
+    solid::Law,
     solver::{Control, Particle},
 };
 

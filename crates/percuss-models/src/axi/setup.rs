@@ -5,17 +5,17 @@ use super::{
     boundary::{BoundaryCondition, BoundaryConditions},
     contact::Contact,
     fill::{Division, Filling},
-    law::{Law, Pressure},
     mesh::{Axis, Mesh},
     run::materials,
     solver::{Accumulators, DeferredWork, Grid},
 };
 use crate::{
     Error, Scenario,
-    material::{Material, StateEquation},
-    options::{ContactKind, Edge, Eos},
+    material::Material,
+    options::{ContactKind, Edge},
     problem::{Nose, RearFaceCondition},
     scenario::{Rod, TargetBody},
+    solid::{Behaviour, Law},
     solver::{Control, Particle, estimate::expected_depth},
 };
 
@@ -117,22 +117,13 @@ fn law(material: &Material, scenario: &Scenario) -> Law {
     let rear_face = scenario.rear_face();
     let heated = options.adiabatic_heating();
     let fraction = if heated { options.heat_fraction() } else { 0.0 };
-    let state = match options.equation_of_state() {
-        Eos::Linear => None,
-        Eos::MieGruneisen => StateEquation::of(material),
-    };
-    let bulk_modulus = material.bulk_modulus();
-    Law {
-        density: material.density.si(),
-        shear_modulus: material.shear_modulus(),
-        bulk_modulus,
-        pressure: state.map_or(Pressure::Linear, Pressure::MieGruneisen),
-        strength: material.strength.law().prepare(material, 1.0),
+    let behaviour = Behaviour {
+        equation_of_state: options.equation_of_state(),
         rate_effects: options.rate_effects(),
-        heating: material
-            .specific_heat
-            .map_or(0.0, |heat| fraction / heat.si()),
+        heat_fraction: fraction,
         viscosity: options.artificial_viscosity(),
+    };
+    Law {
         spall_strength: options
             .spalls()
             .then(|| options.spall_strength.or(material.spall_strength))
@@ -148,6 +139,7 @@ fn law(material: &Material, scenario: &Scenario) -> Law {
         erode_failed: options.erodes_failed(rear_face),
         erosion_strain: options.erosion_strain,
         axisymmetric: true,
+        ..Law::of(material, &behaviour)
     }
 }
 

@@ -6,7 +6,10 @@ use super::{
     kernel::{Stencil, Stencils},
     mesh::Places,
 };
-use crate::lanes::{LANES, Lanes, each_of, lanes, settled};
+use crate::{
+    lanes::{LANES, Lanes, each_of, lanes, settled},
+    solid::MaterialPoints,
+};
 
 /// What a particle adds to the nodes around it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -36,11 +39,14 @@ pub(super) fn deposit_block(
         position: [radius, _],
         velocity: [v_r, v_z],
         gradient: [rr, rz, zr, zz],
+        ..
+    } = *block;
+    let MaterialPoints {
         deviator: [stress_rr, stress_zz, stress_rz],
         mass,
         volume,
         ..
-    } = *block;
+    } = block.points;
     let (radial, axial) = (
         settled(Stencils::at(&radial)),
         settled(Stencils::at(&axial)),

@@ -20,6 +20,7 @@ use crate::{
     history::ElementState,
     outcome::Detail,
     solver::{Control, Particle, archive::Archive},
+    units::significant,
 };
 
 /// Row or layer of a particle, and its place there.
@@ -35,6 +36,16 @@ pub(super) struct Load<const D: usize> {
     pub(super) force: [f64; D],
     pub(super) moment: f64,
 }
+
+/// Largest plastic strain and temperature [K] of a body; 0 where there is none.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Flow {
+    pub(super) plastic_strain: f64,
+    pub(super) temperature: f64,
+}
+
+/// Largest stretch of a bond that holds: beyond it no brittle solid is whole.
+const LARGEST_STRETCH: f64 = 0.1;
 
 /// A body of bonded particles in rows or layers.
 pub(super) trait Bonded<const D: usize>: Debug + Clone + Sync {
@@ -135,6 +146,47 @@ pub(super) trait Bonded<const D: usize>: Debug + Clone + Sync {
 
     /// Largest stretch of a bond that holds, over its length, and largest principal tension of a particle [Pa].
     fn extremes(&self) -> (f64, f64);
+    /// Why and with what remedy a run whose largest stretch of a bond is this one cannot go on, if it cannot.
+    fn unbearable(&self, largest_stretch: f64) -> Option<(String, String)> {
+        let why = match self.softening() {
+            Some(_) => "no spring stands for so large a strain of what is still whole",
+            None => "the solid would break, and the bonds of this run do not",
+        };
+        (largest_stretch > LARGEST_STRETCH).then(|| {
+            (
+                format!(
+                    "a bond is stretched or shortened by {:.0} % of its length: {why},",
+                    100.0 * largest_stretch
+                ),
+                "lower `projectile.impact_velocity`, blunt the nose, or use another model"
+                    .to_owned(),
+            )
+        })
+    }
+    /// Part of the stable step of the body at rest that is stable now; 1 where springs keep their stiffness.
+    fn stable_part(&self) -> f64 {
+        1.0
+    }
+    /// Largest plastic strain and temperature.
+    fn flow(&self) -> Flow {
+        Flow::default()
+    }
+    /// Largest stretch and tension [Pa] of a run among its results.
+    fn extremes_in_words(&self, stretch: f64, tension: f64) -> Vec<Detail> {
+        let detail = |name, unit, value| Detail { name, unit, value };
+        vec![
+            detail("largest tension", "MPa", tension * 1e-6),
+            detail("largest stretch of a bond", "%", 100.0 * stretch),
+        ]
+    }
+    /// What a reader has to know of them where nothing breaks.
+    fn limits_in_words(&self, _: f64, tension: f64) -> Vec<String> {
+        vec![format!(
+            "the solid cannot break in this run: the largest tension is {} MPa, and beyond the strength of the material its \
+             answer does not hold",
+            significant(tension * 1e-6, 3)
+        )]
+    }
     /// Place of the particle of a row that is nearest to the axis.
     fn axis_place(&self, row: usize) -> usize;
     /// State of the particle nearest to the axis in a row, of a part of the case.

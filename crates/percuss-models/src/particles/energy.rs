@@ -15,6 +15,23 @@ pub(super) struct BodySums {
     pub(super) kinetic: f64,
     pub(super) elastic: f64,
     pub(super) fracture: f64,
+    pub(super) plastic: f64,
+    pub(super) viscous: f64,
+    /// Of the forces that hold neighbours where the gradients of particles put them, stored and lost.
+    pub(super) stabilisation: f64,
+}
+
+impl std::iter::Sum for BodySums {
+    fn sum<I: Iterator<Item = Self>>(parts: I) -> Self {
+        parts.fold(Self::default(), |sum, part| Self {
+            kinetic: sum.kinetic + part.kinetic,
+            elastic: sum.elastic + part.elastic,
+            fracture: sum.fracture + part.fracture,
+            plastic: sum.plastic + part.plastic,
+            viscous: sum.viscous + part.viscous,
+            stabilisation: sum.stabilisation + part.stabilisation,
+        })
+    }
 }
 
 impl Body {
@@ -25,13 +42,7 @@ impl Body {
             .with_min_len(LEAST_ROWS)
             .map(|row| self.row_sums(row, step, loads))
             .collect();
-        let mut sums = BodySums::default();
-        for row in rows {
-            sums.kinetic += row.kinetic;
-            sums.elastic += row.elastic;
-            sums.fracture += row.fracture;
-        }
-        sums
+        rows.into_iter().sum()
     }
 
     /// Kinetic energy as `½ m v₋·v₊` of the velocities half a step before and after, with which leapfrog conserves the energy of

@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, fmt::Write as _};
 
-use super::{ball, body::Body, bonded::Bonded, run::Impact, setup, shape::Rigid};
+use super::{ball, body::Body, bonded::Bonded, run::Impact, setup, shape::Rigid, stress};
 use crate::{
     Error, Refusal, Scenario,
     options::Space,
@@ -56,6 +56,12 @@ fn not_exported(scenario: &Scenario) -> Option<Refusal> {
     if ball::is_meant(scenario) {
         let reason = "the input for LAMMPS is that of a lattice, and `particles.contact = \"hertz\"` has none";
         return Some(Refusal::new(reason).with_remedy("remove `particles.contact`"));
+    }
+    if stress::is_meant(scenario) {
+        let reason = "the input for LAMMPS has springs alone: it lacks the stresses of `particles.formulation = \"particle-stress\"`";
+        return Some(
+            Refusal::new(reason).with_remedy("give `particles.formulation = \"springs\"`"),
+        );
     }
     if setup::toughness(scenario).is_some() {
         let reason = "LAMMPS has no bonds that soften: its bonds break at once, under pressure, too, and the answer would be another one";

@@ -3,7 +3,7 @@
 use super::{
     bonded::Bonded,
     fracture::{LEAST_BY_STRESS, LEAST_SOFTENING},
-    run::Impact,
+    run::{Impact, State},
     setup,
     shape::Rigid,
 };
@@ -189,14 +189,8 @@ fn details<B: Bonded<D>, const D: usize>(run: &Impact<'_, B, D>) -> Vec<Detail> 
         detail("particles", "", body.particles().count() as f64),
     ];
     details.extend(body.details(run.scenario, &run.inertia));
-    details.extend([
-        detail("largest tension", "MPa", run.state.largest_tension * 1e-6),
-        detail(
-            "largest stretch of a bond",
-            "%",
-            100.0 * run.state.largest_stretch,
-        ),
-    ]);
+    let (stretch, tension) = (run.state.largest_stretch, run.state.largest_tension);
+    details.extend(body.extremes_in_words(stretch, tension));
     if run.inertia.moment.is_some() {
         let rate = -run.state.flight.spin;
         details.push(detail("angular velocity of the projectile", "rad/s", rate));
@@ -227,11 +221,14 @@ fn warnings<B: Bonded<D>, const D: usize>(
     let mut warnings = run.body.notes(run.scenario);
     match run.body.softenings(run.scenario) {
         Some(softenings) => warnings.extend(fracture_warnings(run, &softenings)),
-        None => warnings.push(format!(
-            "the solid cannot break in this run: the largest tension is {} MPa, and beyond the strength of the material its \
-             answer does not hold",
-            significant(run.state.largest_tension * 1e-6, 3)
-        )),
+        None => {
+            let State {
+                largest_stretch,
+                largest_tension,
+                ..
+            } = run.state;
+            warnings.extend(run.body.limits_in_words(largest_stretch, largest_tension));
+        }
     }
     let idle = run.body.idle(&run.notches);
     if !idle.is_empty() {

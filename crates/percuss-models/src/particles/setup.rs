@@ -9,6 +9,7 @@ use super::{
     packing::{Moved, Packing},
     shape::{Rigid, Shape},
     slot::Slot,
+    stress,
 };
 use crate::{
     Error, Refusal, Scenario,
@@ -69,11 +70,17 @@ pub(super) fn material(scenario: &Scenario) -> (&Material, &str) {
 /// Why a case inside the validity domain gets no number, if it does not.
 pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
     let (material, id) = material(scenario);
-    if layer(scenario).is_some() && !matches!(material.strength, Strength::Elastic(_)) {
+    let has_stress = stress::is_meant(scenario);
+    if has_stress && let Some(refusal) = stress::not_applicable(scenario) {
+        return Some(refusal);
+    }
+    let yields = !matches!(material.strength, Strength::Elastic(_));
+    if layer(scenario).is_some() && yields && !has_stress {
         let reason = format!(
-            "it has no plastic flow yet, and the target's material `{id}` yields: it takes targets of the strength law `elastic`"
+            "springs have no plastic flow, and the target's material `{id}` yields: they take targets of the strength law `elastic`"
         );
-        return Some(Refusal::new(reason).with_remedy("use the model `axi` or `chain`"));
+        let remedy = "give `particles.formulation = \"particle-stress\"` in plane strain; or use the model `axi` or `chain`";
+        return Some(Refusal::new(reason).with_remedy(remedy));
     }
     if layer(scenario).is_some() && scenario.target_thickness().is_none() {
         let reason = "a semi-infinite target is computed under a ball with `particles.contact = \"hertz\"` alone";
@@ -104,6 +111,9 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
         let reason = "a lattice on a rigid wall takes normal impact alone";
         let remedy = "remove `projectile.obliquity`, or give a plate as the target";
         return Some(Refusal::new(reason).with_remedy(remedy));
+    }
+    if has_stress {
+        return None;
     }
     let space = scenario.options.particles.space();
     poissons_ratio_refusal(space, material.poissons_ratio, id)
@@ -183,6 +193,9 @@ impl Extent {
 
 /// Time step [s], expected duration [s] and limits of a run before it starts.
 pub(super) fn expected(scenario: &Scenario) -> (f64, f64, Limits) {
+    if stress::is_meant(scenario) {
+        return stress::expected(scenario);
+    }
     let options = &scenario.options.particles;
     let (solid, spacing) = (solid(scenario), extent(scenario).spacing());
     let (wave_speed, frequency) = match options.space() {
@@ -217,7 +230,8 @@ pub(super) fn limits(scenario: &Scenario, wave_speed: f64, breaks: bool) -> Limi
 /// Resistance to cracks of the lattice's material, if its bonds break.
 pub(super) fn toughness(scenario: &Scenario) -> Option<Toughness> {
     let fracture = material(scenario).0.fracture.as_ref()?;
-    (scenario.options.particles.fracture != Some(false)).then(|| Toughness {
+    let breaks = scenario.options.particles.fracture != Some(false) && !stress::is_meant(scenario);
+    breaks.then(|| Toughness {
         energy: fracture.energy.si(),
         strength: fracture.tensile_strength.si(),
     })
@@ -345,7 +359,9 @@ pub(super) fn build(
     let extent = extent(scenario);
     let packing = packing(scenario);
     let mut lattice = solid(scenario).lattice(scenario.options.particles.space(), extent.spacing());
-    if let Packing::Irregular(moved) = packing {
+    if let Packing::Irregular(moved) = packing
+        && !stress::is_meant(scenario)
+    {
         lattice = moved.tuned(&lattice);
     }
     let rows = Rows {

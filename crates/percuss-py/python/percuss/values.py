@@ -103,6 +103,7 @@ class SampleColumns:
     energy_plastic_plate_j: Array
     energy_particles_to_grid_j: Array
     energy_changes_of_the_time_step_j: Array
+    energy_stabilisation_j: Array
     momentum_initial_n_s: Array
     momentum_projectile_n_s: Array
     momentum_target_n_s: Array

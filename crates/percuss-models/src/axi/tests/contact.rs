@@ -8,9 +8,8 @@ use crate::axi::{
     boundary::{BoundaryCondition, BoundaryConditions},
     contact::Contact,
     field::{Field, MASS},
-    law::Law,
 };
-use crate::solver::Control;
+use crate::{solid::Law, solver::Control};
 
 const YOUNGS_MODULUS: f64 = 200e9;
 const DENSITY: f64 = 7850.0;

@@ -2,8 +2,8 @@
 
 use super::{Grid, Particle, Solid, body, deform, rectangle, solver};
 use crate::{
-    axi::law::Law,
     material::{Material, PreparedDamage},
+    solid::Law,
 };
 
 const FLOW_STRESS: f64 = 400e6;

@@ -5,6 +5,7 @@ mod failure;
 mod load;
 mod opening;
 mod outgoing;
+mod plane_bar;
 mod pressure_dependent;
 mod pressurised;
 mod rigid_motion;
@@ -19,15 +20,13 @@ use super::{
     body::{Body, Limits},
     boundary::BoundaryConditions,
     contact::Contact,
-    law::{Law, Pressure},
     mesh::Mesh,
-    rates::Rates,
     solver::{Accumulators, DeferredWork, Grid},
 };
 use crate::{
-    case::ArtificialViscosity,
     lanes::Lanes,
     material::{FlowState, FlowStress, PreparedStrength},
+    solid::{Law, Rates},
     solver::{Control, Particle},
 };
 
@@ -70,25 +69,12 @@ impl Solid {
 
     /// The law, without artificial viscosity.
     fn law(self) -> Law {
+        let moduli = [self.shear_modulus, self.bulk_modulus];
+        let strength = Box::new(PerfectlyPlastic(self.flow_stress));
         Law {
-            density: self.density,
-            shear_modulus: self.shear_modulus,
-            bulk_modulus: self.bulk_modulus,
-            pressure: Pressure::Linear,
-            strength: Box::new(PerfectlyPlastic(self.flow_stress)),
-            rate_effects: false,
-            heating: 0.0,
-            viscosity: ArtificialViscosity {
-                linear: 0.0,
-                quadratic: 0.0,
-            },
-            spall_strength: None,
-            damage: None,
-            failure_strain: None,
             band_width: 0.25e-3,
-            erode_failed: false,
-            erosion_strain: None,
             axisymmetric: true,
+            ..Law::plain(self.density, moduli, strength)
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Strength that depends on pressure: the yield stress is evaluated again in every step, also where a particle bears no stress.
 
 use super::{Particle, Solid, deform};
-use crate::{axi::law::Law, material::Library};
+use crate::{material::Library, solid::Law};
 
 /// Tungsten by Steinberg and Guinan, in small elastic constants of its own.
 fn tungsten() -> Law {

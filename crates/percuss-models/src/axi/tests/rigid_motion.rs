@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{Grid, Solid, body, change, deform, rectangle, solver, spherical_shell, uniform};
-use crate::axi::{Particle, law::Law};
+use crate::{axi::Particle, solid::Law};
 
 fn steel() -> Solid {
     Solid::elastic(7850.0, 200e9, 0.3)

@@ -4,11 +4,10 @@ use super::{Solid, body, solver};
 use crate::{
     axi::{
         block::Block,
-        law::Law,
         mesh::{Axis, Mesh},
-        rates::Rates,
     },
     lanes::Lanes,
+    solid::{Law, Rates},
     solver::{Control, Particle},
 };
 

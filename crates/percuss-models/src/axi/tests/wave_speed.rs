@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use super::{ALL_ROWS, Grid, Solid, body, rectangle, supported};
-use crate::axi::{
-    boundary::{BoundaryCondition, BoundaryConditions},
-    law::Law,
+use crate::{
+    axi::boundary::{BoundaryCondition, BoundaryConditions},
+    solid::Law,
 };
 
 const LENGTH: f64 = 0.1;

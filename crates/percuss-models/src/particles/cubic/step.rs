@@ -186,13 +186,7 @@ impl CubicBody {
             .into_par_iter()
             .map(|number| self.layer_energies(number, step, loads))
             .collect();
-        let mut sums = BodySums::default();
-        for layer in layers {
-            sums.kinetic += layer.kinetic;
-            sums.elastic += layer.elastic;
-            sums.fracture += layer.fracture;
-        }
-        sums
+        layers.into_iter().sum()
     }
 
     /// Kinetic energy as `½ m v₋·v₊` of the velocities half a step before and after.

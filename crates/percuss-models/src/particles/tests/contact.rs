@@ -257,7 +257,7 @@ fn what_the_model_does_not_compute_is_refused_with_a_remedy() {
             "material = 'weldox-460-e', thickness = '6 mm'",
             "",
             0.2,
-            "it has no plastic flow yet",
+            "springs have no plastic flow",
         ),
         (
             "material = 'own', thickness = 'semi-infinite'",
@@ -282,6 +282,18 @@ fn what_the_model_does_not_compute_is_refused_with_a_remedy() {
             "space = 'plane-stress'",
             0.34,
             "0.333 in plane stress",
+        ),
+        (
+            plate,
+            "formulation = 'particle-stress', equation_of_state = 'mie-gruneisen'",
+            0.3,
+            "needs an equation of state",
+        ),
+        (
+            "material = 'soda-lime-glass-float', thickness = '6 mm'",
+            "formulation = 'particle-stress'",
+            0.3,
+            "no bond breaks with",
         ),
         (plate, "spacing = '0.01 um'", 0.2, "of memory"),
     ] {

@@ -1,8 +1,8 @@
 //! Constitutive update of a block of particles from its velocity gradients.
 
 use super::{
-    block::Block,
     law::{Law, Pressure},
+    points::MaterialPoints,
     rates::Rates,
 };
 use crate::{
@@ -13,19 +13,19 @@ use crate::{
 
 /// What a step did in every particle of a block [J].
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Work {
-    pub(super) total: Lanes,
-    pub(super) plastic: Lanes,
-    pub(super) viscous: Lanes,
-    pub(super) failure: Lanes,
+pub(crate) struct Work {
+    pub(crate) total: Lanes,
+    pub(crate) plastic: Lanes,
+    pub(crate) viscous: Lanes,
+    pub(crate) failure: Lanes,
     /// Power of the stress at the start and at the end of the step, both on the strain rate of the step [W].
-    pub(super) power_at_start: Lanes,
-    pub(super) power_at_end: Lanes,
+    pub(crate) power_at_start: Lanes,
+    pub(crate) power_at_end: Lanes,
 }
 
 impl Work {
     /// That of a step that takes no time.
-    pub(super) const NONE: Self = Self {
+    pub(crate) const NONE: Self = Self {
         total: Lanes::all(0.0),
         plastic: Lanes::all(0.0),
         viscous: Lanes::all(0.0),
@@ -38,9 +38,9 @@ impl Work {
 impl Law {
     /// Brings particles, whose velocity gradients are new, to the end of a step.
     #[inline(always)]
-    pub(super) fn deform(
+    pub(crate) fn deform(
         &self,
-        block: &mut Block,
+        block: &mut MaterialPoints,
         rates: &Rates,
         time_step: f64,
         cell: &Lanes,
@@ -179,7 +179,13 @@ impl Law {
 
     /// Returns trial stresses to the yield surface, radially, in lanes that flow, with a 1 in `flows`; gives the increments of plastic strain, 0 in others.
     #[inline(always)]
-    fn flows(&self, block: &mut Block, size: &Lanes, flows: &Lanes, time_step: f64) -> Lanes {
+    fn flows(
+        &self,
+        block: &mut MaterialPoints,
+        size: &Lanes,
+        flows: &Lanes,
+        time_step: f64,
+    ) -> Lanes {
         let per_time = if self.rate_effects {
             1.0 / time_step
         } else {
@@ -211,7 +217,7 @@ impl Law {
     #[cold]
     fn flow_one_by_one(
         &self,
-        block: &mut Block,
+        block: &mut MaterialPoints,
         size: &Lanes,
         flows: &Lanes,
         time_step: f64,
@@ -234,7 +240,12 @@ impl Law {
 
     /// Artificial viscosity [Pa].
     #[inline(always)]
-    fn artificial_viscosity(&self, block: &Block, expansion: &Lanes, cell: &Lanes) -> Lanes {
+    fn artificial_viscosity(
+        &self,
+        block: &MaterialPoints,
+        expansion: &Lanes,
+        cell: &Lanes,
+    ) -> Lanes {
         let squared = self.wave_speed_squared(block);
         let (mass, volume) = (block.mass, block.volume);
         lanes(|l| {
@@ -250,8 +261,8 @@ impl Law {
 
     /// New pressure and energy; gives the work of the pressure [J].
     #[inline(always)]
-    fn compress(&self, block: &mut Block, change: &Lanes, other_work: &Lanes) -> Lanes {
-        let Block {
+    fn compress(&self, block: &mut MaterialPoints, change: &Lanes, other_work: &Lanes) -> Lanes {
+        let MaterialPoints {
             mass,
             volume,
             energy,

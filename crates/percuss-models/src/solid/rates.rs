@@ -1,6 +1,6 @@
 //! Rates of strain of a block of particles.
 
-use super::{block::Block, law::Law};
+use super::{law::Law, points::MaterialPoints};
 use crate::lanes::{Lanes, each_of, lanes};
 
 /// Rate, per unit of strain, at which the pressures of a group come together.
@@ -8,20 +8,20 @@ const RELAXING: f64 = 4.0;
 
 /// Rates of strain of a block [1/s], on the configuration half a step on.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Rates {
+pub(crate) struct Rates {
     /// Deviatoric strain rates rr, zz, rz.
-    pub(super) shape: [Lanes; 3],
+    pub(crate) shape: [Lanes; 3],
     /// Rate of volume.
-    pub(super) expansion: Lanes,
+    pub(crate) expansion: Lanes,
     /// Part of the pressure beyond the mean of the group [Pa], and rate of volume by which it decays.
-    pub(super) excess: Lanes,
-    pub(super) relaxation: Lanes,
-    pub(super) spin: Lanes,
+    pub(crate) excess: Lanes,
+    pub(crate) relaxation: Lanes,
+    pub(crate) spin: Lanes,
 }
 
 impl Rates {
     /// Those of a step that takes no time.
-    pub(super) const NONE: Self = Self {
+    pub(crate) const NONE: Self = Self {
         shape: [Lanes::all(0.0); 3],
         expansion: Lanes::all(0.0),
         relaxation: Lanes::all(0.0),
@@ -31,16 +31,16 @@ impl Rates {
 
     /// Equivalent rates of shear.
     #[inline(always)]
-    pub(super) fn shear(&self) -> Lanes {
+    pub(crate) fn shear(&self) -> Lanes {
         let [rr, zz, rz] = self.shape;
         lanes(|l| (rr[l] * rr[l] + zz[l] * zz[l] + rr[l] * zz[l] + rz[l] * rz[l]).sqrt())
     }
 
     /// Lets the pressures of sound particles come together with the mean of their group, at a part of its mean rate of shear.
     #[inline(always)]
-    pub(super) fn relax(
+    pub(crate) fn relax(
         &mut self,
-        block: &Block,
+        block: &MaterialPoints,
         mean: &Lanes,
         shear: &Lanes,
         law: &Law,
@@ -66,7 +66,7 @@ impl Rates {
     /// `C (1 + C Δt/2)⁻¹`, it gives their change of shape to second order, and that of a turning body, which straight ways make larger,
     /// too.
     #[inline(always)]
-    pub(super) fn of(gradient: &[Lanes; 4], hoop_rate: Lanes, time_step: f64) -> Self {
+    pub(crate) fn of(gradient: &[Lanes; 4], hoop_rate: Lanes, time_step: f64) -> Self {
         let [rr, rz, zr, zz] = *gradient;
         let half = 0.5 * time_step;
         let [shape_rr, shape_zz, shape_rz, expansion, spin] = each_of(|l| {
@@ -95,6 +95,27 @@ impl Rates {
             relaxation: Lanes::all(0.0),
             excess: Lanes::all(0.0),
             spin,
+        }
+    }
+
+    /// Those of a velocity gradient on the configuration half a step on, in plane strain, with the rate of volume.
+    #[inline(always)]
+    pub(crate) fn half_way(gradient: &[Lanes; 4], expansion: Lanes) -> Self {
+        let [rr, rz, zr, zz] = *gradient;
+        let [shape_rr, shape_zz, shape_rz, spin] = each_of(|l| {
+            let third = (rr[l] + zz[l]) / 3.0;
+            [
+                rr[l] - third,
+                zz[l] - third,
+                0.5 * (rz[l] + zr[l]),
+                0.5 * (rz[l] - zr[l]),
+            ]
+        });
+        Self {
+            shape: [shape_rr, shape_zz, shape_rz],
+            expansion,
+            spin,
+            ..Self::NONE
         }
     }
 }

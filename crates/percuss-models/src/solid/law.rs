@@ -1,16 +1,18 @@
 //! Material law of a body, and the limits of its particles.
 
-use super::block::Block;
+use super::points::MaterialPoints;
 use crate::{
     lanes::{Lanes, lanes},
-    material::{DamageState, PreparedDamage, PreparedStrength, StateEquation, YieldPoint},
-    options::ArtificialViscosity,
+    material::{
+        DamageState, Material, PreparedDamage, PreparedStrength, StateEquation, YieldPoint,
+    },
+    options::{ArtificialViscosity, Eos},
     solver::Particle,
 };
 
 /// Pressure against volume and energy.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Pressure {
+pub(crate) enum Pressure {
     /// `p = K (ρ/ρ₀ − 1)`.
     Linear,
     /// Mie–Grüneisen about the linear Hugoniot.
@@ -19,41 +21,99 @@ pub(super) enum Pressure {
 
 /// The constants of a body.
 #[derive(Debug)]
-pub(super) struct Law {
-    pub(super) density: f64,
-    pub(super) shear_modulus: f64,
-    pub(super) bulk_modulus: f64,
-    pub(super) pressure: Pressure,
-    pub(super) strength: Box<dyn PreparedStrength>,
-    pub(super) rate_effects: bool,
+pub(crate) struct Law {
+    pub(crate) density: f64,
+    pub(crate) shear_modulus: f64,
+    pub(crate) bulk_modulus: f64,
+    pub(crate) pressure: Pressure,
+    pub(crate) strength: Box<dyn PreparedStrength>,
+    pub(crate) rate_effects: bool,
     /// Temperature rise per plastic work per mass [K kg/J]; 0 without heating.
-    pub(super) heating: f64,
-    pub(super) viscosity: ArtificialViscosity,
+    pub(crate) heating: f64,
+    pub(crate) viscosity: ArtificialViscosity,
     /// Tension beyond which a particle spalls [Pa].
-    pub(super) spall_strength: Option<f64>,
+    pub(crate) spall_strength: Option<f64>,
     /// How plastic strain uses a particle up.
-    pub(super) damage: Option<PreparedDamage>,
+    pub(crate) damage: Option<PreparedDamage>,
     /// Width of the band that localized strain is in [m].
-    pub(super) band_width: f64,
+    pub(crate) band_width: f64,
     /// Equivalent plastic strain at which a particle fails.
-    pub(super) failure_strain: Option<f64>,
+    pub(crate) failure_strain: Option<f64>,
     /// Whether a particle that fails leaves the body.
-    pub(super) erode_failed: bool,
+    pub(crate) erode_failed: bool,
     /// Equivalent plastic strain at which a particle leaves the body.
-    pub(super) erosion_strain: Option<f64>,
+    pub(crate) erosion_strain: Option<f64>,
     /// Off only in plane strain, which some exact checks need.
-    pub(super) axisymmetric: bool,
+    pub(crate) axisymmetric: bool,
+}
+
+/// What the options of a model leave of a material.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Behaviour {
+    pub(crate) equation_of_state: Eos,
+    pub(crate) rate_effects: bool,
+    /// Fraction of plastic work that becomes heat; 0 without heating.
+    pub(crate) heat_fraction: f64,
+    pub(crate) viscosity: ArtificialViscosity,
 }
 
 impl Law {
+    /// A solid of a density [kg/m3], a shear and a bulk modulus [Pa] and a strength law, in plane strain: without rate, heat, artificial
+    /// viscosity and failure.
+    pub(crate) fn plain(
+        density: f64,
+        [shear_modulus, bulk_modulus]: [f64; 2],
+        strength: Box<dyn PreparedStrength>,
+    ) -> Self {
+        Self {
+            density,
+            shear_modulus,
+            bulk_modulus,
+            pressure: Pressure::Linear,
+            strength,
+            rate_effects: false,
+            heating: 0.0,
+            viscosity: ArtificialViscosity {
+                linear: 0.0,
+                quadratic: 0.0,
+            },
+            spall_strength: None,
+            damage: None,
+            band_width: 1.0,
+            failure_strain: None,
+            erode_failed: false,
+            erosion_strain: None,
+            axisymmetric: false,
+        }
+    }
+
+    /// The law of a material that does not fail, in plane strain.
+    pub(crate) fn of(material: &Material, behaviour: &Behaviour) -> Self {
+        let moduli = [material.shear_modulus(), material.bulk_modulus()];
+        let strength = material.strength.law().prepare(material, 1.0);
+        let state = match behaviour.equation_of_state {
+            Eos::Linear => None,
+            Eos::MieGruneisen => StateEquation::of(material),
+        };
+        Self {
+            pressure: state.map_or(Pressure::Linear, Pressure::MieGruneisen),
+            rate_effects: behaviour.rate_effects,
+            heating: material
+                .specific_heat
+                .map_or(0.0, |heat| behaviour.heat_fraction / heat.si()),
+            viscosity: behaviour.viscosity,
+            ..Self::plain(material.density.si(), moduli, strength)
+        }
+    }
+
     /// Where a particle stands that does not flow.
-    pub(super) fn slow_yield_point(&self, particle: &Particle) -> YieldPoint {
+    pub(crate) fn slow_yield_point(&self, particle: &Particle) -> YieldPoint {
         YieldPoint::slow(&*self.strength, &particle.flow_state())
     }
 
     /// Squares of the speeds of longitudinal waves [m2/s2].
     #[inline(always)]
-    pub(super) fn wave_speed_squared(&self, block: &Block) -> Lanes {
+    pub(crate) fn wave_speed_squared(&self, block: &MaterialPoints) -> Lanes {
         let shear = 4.0 / 3.0 * self.shear_modulus;
         let (mass, volume, pressure) = (block.mass, block.volume, block.pressure);
         let specific = lanes(|l| volume[l] * (1.0 / mass[l]));
@@ -67,12 +127,12 @@ impl Law {
     }
 
     /// Whether there is anything that a particle can fail by.
-    pub(super) fn can_fail(&self) -> bool {
+    pub(crate) fn can_fail(&self) -> bool {
         self.damage.is_some() || self.failure_strain.is_some() || self.spall_strength.is_some()
     }
 
     /// Failure in shear and in tension: what a particle that fails gives up counts as failure work [J].
-    pub(super) fn fail(
+    pub(crate) fn fail(
         &self,
         particle: &mut Particle,
         increment: f64,
@@ -114,7 +174,7 @@ impl Law {
     }
 
     /// Elastic energy of a particle, for small strains [J].
-    pub(super) fn elastic_energy(&self, particle: &Particle) -> f64 {
+    pub(crate) fn elastic_energy(&self, particle: &Particle) -> f64 {
         let shear = particle.equivalent_stress();
         let per_volume = shear * shear / (6.0 * self.shear_modulus)
             + particle.pressure * particle.pressure / (2.0 * self.bulk_modulus);
@@ -123,7 +183,7 @@ impl Law {
 
     /// Damage and equivalent plastic strain at which a particle is to leave its body.
     #[inline(always)]
-    pub(super) fn erosion(&self) -> [f64; 2] {
+    pub(crate) fn erosion(&self) -> [f64; 2] {
         [
             if self.erode_failed {
                 1.0
