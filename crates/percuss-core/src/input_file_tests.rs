@@ -61,9 +61,9 @@ fn opening_does_not_wait() {
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();
     assert!(made.unwrap().success());
     let (sent, received) = std::sync::mpsc::channel();
-    std::thread::spawn(move || sent.send(options().open(pipe).unwrap().metadata()));
+    std::thread::spawn(move || sent.send(options().open(pipe).unwrap()).unwrap());
     let opened = received.recv_timeout(std::time::Duration::from_secs(20));
-    let error = regular(&opened.unwrap().unwrap(), 10).unwrap_err();
+    let error = regular(&opened.unwrap().metadata().unwrap(), 10).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::InvalidInput);
 }
 

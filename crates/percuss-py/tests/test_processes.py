@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 
@@ -62,3 +63,28 @@ def test_an_executor_of_processes_gives_the_same_numbers(tmp_path: object) -> No
         file.write(EXECUTOR)
     done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=300, cwd=ROOT)
     assert done.stdout == "equal\n", done.stderr
+
+
+CRAMPED = """
+import resource
+import percuss
+
+resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+case = percuss.load("cases/paper-table1/scenario.toml")
+for command in (percuss.run, percuss.compare):
+    try:
+        command(case)
+    except percuss.PercussError as error:
+        assert "cannot start the threads" in str(error), error
+    else:
+        raise SystemExit("no error")
+print("refused")
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="needs limits of Linux")
+def test_threads_that_cannot_be_started_are_an_error() -> None:
+    environment = {**os.environ, "RAYON_NUM_THREADS": "1000"}
+    command = [sys.executable, "-c", CRAMPED]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=100, cwd=ROOT, env=environment)
+    assert done.stdout == "refused\n", done.stderr

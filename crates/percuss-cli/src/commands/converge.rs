@@ -197,10 +197,11 @@ impl Converge {
         let mut results = Vec::new();
         let ended = converge::run_meshes(model, scenario, self.levels, &mut control, &mut results);
         match ended {
-            Err(Error::Cancelled { .. }) if stop.load(Ordering::Relaxed) => match results.len() {
-                0 => return Err(Failure::Interrupted("the study")),
-                _ => (),
-            },
+            Err(Error::Cancelled { .. }) if stop.load(Ordering::Relaxed) => {
+                if results.is_empty() {
+                    return Err(Failure::Interrupted("the study"));
+                }
+            }
             ended => ended?,
         }
         Ok(MeshStudy::new(scenario, &results))

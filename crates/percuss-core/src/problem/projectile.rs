@@ -235,6 +235,25 @@ impl Projectile {
     }
 }
 
+/// Reports a velocity out of range, or one other than zero that is too small.
+fn check_impact_velocity(velocity: Velocity, check: &mut Check<'_>) {
+    let [moving, all] = [limits::MOVING, limits::IMPACT_VELOCITY];
+    if velocity.si() <= 0.0 || velocity.si() > moving.max || moving.allow(velocity.si()) {
+        check.quantity("impact_velocity", velocity, all);
+        return;
+    }
+    check.fail(
+        "impact_velocity",
+        format!("{velocity} is too slow to be computed"),
+        format!(
+            "allowed: {}, or {} to {}",
+            Velocity::new(all.min),
+            Velocity::new(moving.min),
+            Velocity::new(moving.max)
+        ),
+    );
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -262,23 +281,4 @@ mod tests {
             .sum();
         assert!((nose.volume(diameter) / sum - 1.0).abs() < 1e-7);
     }
-}
-
-/// Reports a velocity out of range, or one other than zero that is too small.
-fn check_impact_velocity(velocity: Velocity, check: &mut Check<'_>) {
-    let [moving, all] = [limits::MOVING, limits::IMPACT_VELOCITY];
-    if velocity.si() <= 0.0 || velocity.si() > moving.max || moving.allow(velocity.si()) {
-        check.quantity("impact_velocity", velocity, all);
-        return;
-    }
-    check.fail(
-        "impact_velocity",
-        format!("{velocity} is too slow to be computed"),
-        format!(
-            "allowed: {}, or {} to {}",
-            Velocity::new(all.min),
-            Velocity::new(moving.min),
-            Velocity::new(moving.max)
-        ),
-    );
 }
