@@ -40,9 +40,14 @@ impl Bulge {
         }
     }
 
+    /// Deflection of the rim [m].
+    pub fn depth(&self) -> f64 {
+        self.rings.first().map_or(0.0, |ring| ring[1])
+    }
+
     /// Radius at which half of the rim's deflection is left [m].
     pub fn half_radius(&self) -> Option<f64> {
-        let half = 0.5 * self.rings.first()?[1];
+        let half = 0.5 * self.depth();
         let pairs = self.rings.iter().zip(self.rings.get(1..)?);
         let mut pairs = pairs.filter(|(a, b)| a[1] > half && b[1] <= half);
         let ([inner, high], [outer, low]) = pairs.next()?;

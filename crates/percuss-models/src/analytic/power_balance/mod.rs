@@ -246,7 +246,8 @@ fn describe(result: &mut RunResult, impact: &Impact, run: &Perforation) {
     result.peak_force = Some(run.peak_force);
     result.end_time = Some(last.time);
     let detail = |name, unit, value| Detail { name, unit, value };
-    let bulge = if impact.bulging { last.deflection } else { 0.0 };
+    // Of a perforated plate, once it has come to rest.
+    let bulge = run.bulge.depth();
     result.details = vec![
         detail("sunk into the plate", "mm", last.sunk * 1e3),
         detail("deflection of the plate at the rim", "mm", bulge * 1e3),
@@ -285,6 +286,12 @@ fn describe(result: &mut RunResult, impact: &Impact, run: &Perforation) {
         }
     }
     if run.perforated {
+        if impact.flat() {
+            let plug = last.velocities[1];
+            result
+                .details
+                .push(detail("velocity of the plug", "m/s", plug));
+        }
         result
             .details
             .push(detail("contact time", "us", last.time * 1e6));

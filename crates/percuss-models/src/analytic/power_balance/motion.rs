@@ -220,7 +220,53 @@ impl Impact {
             }
         }
         run.last = now;
+        if run.perforated && self.bulging && keep != Keep::End {
+            self.settle(&now, &mut run.bulge);
+        }
         run
+    }
+
+    /// Lets the plate that a projectile has left move on until it no longer yields: its dish alone, in the same fields.
+    pub fn settle(&self, exit: &MotionState, bulge: &mut Bulge) -> MotionState {
+        let dish = self.dish();
+        let momentum = dish.mass(exit.edge) * exit.velocities[2];
+        let mut now = *exit;
+        for _ in 0..MOST_STEPS {
+            if self.dishing(&now) <= 0.0 {
+                break;
+            }
+            let stress = self.dish_stress(&now);
+            let resistance = dish.resistance(now.edge, now.deflection, stress);
+            let duration = momentum / (resistance * STEPS);
+            let edge = self.best_edge(&now, duration, |edge| {
+                let alone = self.dish_body(&now, edge, stress, duration);
+                ([alone, Body::default(), Body::default()], 1)
+            });
+            let body = self.dish_body(&now, edge, stress, duration);
+            let mobility = self.mobility(&now, duration);
+            let taken = step(Row {
+                bodies: &[body],
+                mobility,
+            });
+            let (velocity, impulse) = (taken.velocities[0], taken.impulses[0]);
+            let elastic = mobility * impulse;
+            let plastic = 0.5 * (body.velocity + velocity) - elastic;
+            if impulse < body.largest * (1.0 - 1e-12) || plastic <= 0.0 {
+                break;
+            }
+            let before = dish.mass(now.edge) * now.velocities[2].powi(2);
+            now.capture += 0.5 * (before - body.mass * body.velocity.powi(2));
+            now.dish_work += impulse * plastic;
+            now.wave_work += impulse * elastic;
+            now.deflection += duration * plastic;
+            now.flexure += duration * elastic;
+            now.flexing = elastic;
+            now.velocities[2] = velocity;
+            now.edge = edge;
+            now.time += duration;
+            bulge.add(edge, duration * plastic);
+        }
+        now
     }
 
     fn note_stages(&self, stages: &mut [Option<f64>; 3], now: &MotionState) {
@@ -248,7 +294,10 @@ impl Impact {
         let forces = self.forces(now, duration, &mut next);
         let stress = self.dish_stress(now);
         if self.bulging && !now.held && self.bulges(now, &forces) {
-            next.edge = self.best_edge(now, &forces, stress, duration);
+            next.edge = self.best_edge(now, duration, |edge| {
+                let bodies = self.bodies(now, &forces, edge, stress, duration);
+                (bodies, self.count())
+            });
         }
         let bodies = self.bodies(now, &forces, next.edge, stress, duration);
         let count = self.count();
@@ -324,18 +373,23 @@ impl Impact {
             count = 2;
         }
         if self.bulging {
-            let dish = self.dish();
-            let mass = dish.mass(edge);
-            let deflection = now.deflection + 0.5 * duration * self.dishing(now);
-            let resistance = dish.resistance(edge, deflection, dish_stress) * duration;
-            bodies[count] = Body {
-                mass,
-                velocity: now.velocities[2] * dish.common(now.edge, edge) / mass,
-                largest: resistance,
-                least: -resistance,
-            };
+            bodies[count] = self.dish_body(now, edge, dish_stress, duration);
         }
         bodies
+    }
+
+    /// The dish with an edge, with the momentum of its old field.
+    fn dish_body(&self, now: &MotionState, edge: f64, stress: f64, duration: f64) -> Body {
+        let dish = self.dish();
+        let mass = dish.mass(edge);
+        let deflection = now.deflection + 0.5 * duration * self.dishing(now);
+        let resistance = dish.resistance(edge, deflection, stress) * duration;
+        Body {
+            mass,
+            velocity: now.velocities[2] * dish.common(now.edge, edge) / mass,
+            largest: resistance,
+            least: -resistance,
+        }
     }
 
     /// Whether the plate around the projectile moves, or is pushed harder than its least resistance.
@@ -350,16 +404,21 @@ impl Impact {
         self.dishing(now) > 0.0 || push > least
     }
 
-    /// The radius of the dish at which the step needs the least power, kinetic and plastic.
-    fn best_edge(&self, now: &MotionState, forces: &Forces, stress: f64, duration: f64) -> f64 {
+    /// The radius of the dish at which the step of some bodies needs the least power, kinetic and plastic; the dish is the last of them.
+    fn best_edge(
+        &self,
+        now: &MotionState,
+        duration: f64,
+        bodies_of: impl Fn(f64) -> ([Body; BODIES], usize),
+    ) -> f64 {
         let dish = self.dish();
         let mobility = self.mobility(now, duration);
         let before = 0.5 * dish.mass(now.edge) * now.velocities[2].powi(2);
         let needed = |log: f64| {
             let edge = dish.rim * (1.0 + log.exp());
-            let bodies = self.bodies(now, forces, edge, stress, duration);
+            let (bodies, count) = bodies_of(edge);
             let row = Row {
-                bodies: &bodies[..self.count()],
+                bodies: &bodies[..count],
                 mobility,
             };
             let taken = step(row);

@@ -7,7 +7,7 @@ use super::{
     forces::LAYERS,
     history, impact,
     links::{Body, Row, step},
-    motion::{Impact, Keep},
+    motion::{Impact, Keep, MotionState},
 };
 use crate::{
     analytic::plate_impact::PlateImpact,
@@ -475,4 +475,32 @@ fn the_bulge_is_the_sum_of_the_dishes() {
     assert!((rings[0][1] / run.last.deflection - 1.0).abs() < 1e-9);
     assert!(rings.windows(2).all(|pair| pair[1][1] <= pair[0][1]));
     assert!(run.moments.is_empty());
+}
+
+/// The kinetic energy that a plate has when the projectile leaves it goes into plastic work and waves.
+#[test]
+fn a_perforated_plate_comes_to_rest() {
+    // A plug leaves, and an ogive slides through, once the plate is at rest.
+    for nose in &NOSES[1..3] {
+        let impact = of(POWER, nose, 4.0, "");
+        let run = impact.case(1.02 * impact.ballistic_limit(100.0), Keep::Shape);
+        assert!(run.perforated, "{nose}");
+        let mut bulge = Bulge::new(impact.radius());
+        let (exit, rest) = (run.last, impact.settle(&run.last, &mut bulge));
+        let kinetic = |moment| impact.kinetic_energy(moment)[2];
+        let work = |moment: &MotionState| moment.dish_work + moment.wave_work + moment.capture;
+        let lost = kinetic(&exit) - kinetic(&rest);
+        let more = rest.deflection - exit.deflection;
+        assert!(
+            lost > 0.5 * kinetic(&exit) && more > 1e-6,
+            "{nose} {lost} {more}"
+        );
+        let part = (work(&rest) - work(&exit)) / lost;
+        assert!((part - 1.0).abs() < 1e-9, "{nose} {part}");
+        assert!((bulge.depth() / more - 1.0).abs() < 1e-9, "{nose}");
+        assert!(
+            (run.bulge.depth() / rest.deflection - 1.0).abs() < 1e-9,
+            "{nose}"
+        );
+    }
 }
