@@ -2,6 +2,7 @@
 
 use std::{
     error::Error,
+    fmt::Display,
     ops::ControlFlow,
     process,
     sync::{
@@ -36,26 +37,30 @@ pub fn start() -> Result<(), Failure> {
             });
         }
     }
-    static STARTED: OnceLock<()> = OnceLock::new();
-    if STARTED.get().is_some() {
-        return Ok(());
+    // They are started once, and what failed cannot be tried again.
+    static POOL: OnceLock<Result<(), String>> = OnceLock::new();
+    let pool = POOL.get_or_init(|| {
+        match rayon::ThreadPoolBuilder::new().build_global() {
+            // A caller of the library may have started them before: that error has no source.
+            Err(error) if error.source().is_some() => Err(error.to_string()),
+            _ => Ok(()),
+        }
+    });
+    if let Err(reason) = pool {
+        return Err(refused(reason));
     }
-    let pool = rayon::ThreadPoolBuilder::new().build_global();
-    // A caller of the library may have started them before: that error has no source.
-    if let Err(error) = pool
-        && Error::source(&error).is_some()
-    {
-        return Err(refused(&error));
-    }
-    // Commands start some more, one at a time.
-    let one_more = thread::Builder::new().spawn(|| ());
-    match one_more.map(thread::JoinHandle::join) {
-        Err(error) => Err(refused(&error)),
-        Ok(_) => {
-            STARTED.get_or_init(|| ());
-            Ok(())
+    static ONE_MORE: OnceLock<()> = OnceLock::new();
+    if ONE_MORE.get().is_none() {
+        // Commands start some more, one at a time.
+        match thread::Builder::new()
+            .spawn(|| ())
+            .map(thread::JoinHandle::join)
+        {
+            Err(error) => return Err(refused(&error)),
+            Ok(_) => drop(ONE_MORE.set(())),
         }
     }
+    Ok(())
 }
 
 /// Thread pool with this number of threads, by default one per core.
@@ -67,7 +72,7 @@ pub fn pool(threads: Option<u16>) -> Result<rayon::ThreadPool, Failure> {
     pool.build().map_err(|error| refused(&error))
 }
 
-fn refused(error: &dyn Error) -> Failure {
+fn refused(error: &dyn Display) -> Failure {
     Failure::Usage {
         message: format!("cannot start the threads: {error}"),
         help: format!(
