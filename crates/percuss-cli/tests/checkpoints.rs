@@ -1,6 +1,8 @@
 //! Fields and checkpoints of one-dimensional runs in a folder.
 
 use std::fs;
+#[cfg(target_os = "linux")]
+use std::path::Path;
 
 use crate::support::{CASE, ok, percuss, shot};
 
@@ -84,6 +86,62 @@ fn a_run_that_is_interrupted_continues_with_the_same_numbers() {
     }
 }
 
+/// Calls with which a command puts files on the disk and gives them their names; `None` where `strace` is missing.
+#[cfg(target_os = "linux")]
+fn disk_calls(folder: &Path, arguments: &[&str]) -> Option<String> {
+    let traced = std::process::Command::new("strace")
+        .args(["-f", "-y", "-o", "calls", "-e"])
+        .arg("trace=fsync,rename,renameat,renameat2")
+        .arg(env!("CARGO_BIN_EXE_percuss"))
+        .args(arguments)
+        .current_dir(folder)
+        .output();
+    let calls = fs::read_to_string(folder.join("calls")).unwrap_or_default();
+    // It says how the program ended, unless it may not trace.
+    let (true, Ok(traced)) = (calls.contains("exited with"), traced) else {
+        println!("no strace here");
+        return None;
+    };
+    assert!(traced.status.success(), "{arguments:?}: {traced:?}");
+    Some(calls)
+}
+
+/// No file has its name before its content is on the disk.
+#[cfg(target_os = "linux")]
+#[test]
+fn results_outlive_a_loss_of_power() {
+    let uncertainty = "[[uncertainty.parameter]]\nkey = 'projectile.impact_velocity'\n\
+        normal = { mean = '230 m/s', standard_deviation = '3 m/s' }\n";
+    let folder = shot(&format!("{CASE}\n{uncertainty}"));
+    for (arguments, least) in [
+        (&["run", "shot.toml", "--fast"][..], 10),
+        (&["uncertainty", "shot.toml", "--samples", "16"], 5),
+        (&["limit", "shot.toml", "--fast"], 3),
+        (&["converge", "shot.toml", "--levels", "3"], 3),
+    ] {
+        let arguments = [arguments, &["--out", "out"]].concat();
+        let Some(calls) = disk_calls(folder.path(), &arguments) else {
+            return;
+        };
+        let mut on_disk: Vec<&str> = Vec::new();
+        let mut named = 0;
+        for call in calls.lines() {
+            let file = call
+                .split(['"', '<', '>'])
+                .find(|part| part.ends_with(".tmp"));
+            let file = file.and_then(|path| path.rsplit('/').next());
+            let Some(file) = file else { continue };
+            if call.contains("fsync(") {
+                on_disk.push(file);
+            } else if call.contains("rename") {
+                assert!(on_disk.contains(&file), "{arguments:?}: {call}");
+                named += 1;
+            }
+        }
+        assert!(named >= least, "{arguments:?}: {named}");
+    }
+}
+
 /// A checkpoint is on the disk before its name is, and its name before the run goes on. Where `strace` is missing nothing is tried.
 #[cfg(target_os = "linux")]
 #[test]
@@ -94,34 +152,20 @@ fn a_checkpoint_outlives_a_loss_of_power() {
         chain = { target_resistance = "column", projectile_elements = 300, target_elements = 600 }
         "#;
     let folder = shot(case);
-    let traced = std::process::Command::new("strace")
-        .args([
-            "-f",
-            "-y",
-            "-o",
-            "calls",
-            "-e",
-            "trace=fsync,rename,renameat,renameat2",
-        ])
-        .arg(env!("CARGO_BIN_EXE_percuss"))
-        .args([
-            "run",
-            "shot.toml",
-            "--fast",
-            "--model",
-            "chain",
-            "--out",
-            "out",
-            "--checkpoint",
-            "0.01s",
-        ])
-        .current_dir(folder.path())
-        .output();
-    if !traced.is_ok_and(|traced| traced.status.success()) {
-        println!("no strace here");
+    let run = [
+        "run",
+        "shot.toml",
+        "--fast",
+        "--model",
+        "chain",
+        "--out",
+        "out",
+        "--checkpoint",
+        "0.01s",
+    ];
+    let Some(calls) = disk_calls(folder.path(), &run) else {
         return;
-    }
-    let calls = fs::read_to_string(folder.path().join("calls")).unwrap();
+    };
     let calls: Vec<&str> = calls
         .lines()
         .filter(|call| call.contains("fsync(") || call.contains("checkpoint.percuss"))

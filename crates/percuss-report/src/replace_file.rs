@@ -44,10 +44,7 @@ pub fn replace_file_durably(
     name: &str,
     write: impl FnOnce(&mut fs::File) -> io::Result<()>,
 ) -> Result<PathBuf, ReportError> {
-    let path = replace(folder, name, |file| {
-        write(file)?;
-        file.sync_all()
-    })?;
+    let path = replace(folder, name, write)?;
     sync_folder(folder).map_err(|source| ReportError::Write {
         path: folder.to_owned(),
         source,
@@ -76,8 +73,12 @@ fn replace(
     let path = folder.join(name);
     let number = COUNTER.fetch_add(1, Ordering::Relaxed);
     let temporary = folder.join(format!(".{name}.{}-{number}.tmp", process::id()));
+    // Its content is on the disk before its name: a loss of power leaves the former file or this one.
     fs::File::create(&temporary)
-        .and_then(|mut file| write(&mut file))
+        .and_then(|mut file| {
+            write(&mut file)?;
+            file.sync_all()
+        })
         .and_then(|()| fs::rename(&temporary, &path))
         .map_err(|source| {
             // Nothing more can be done when the temporary file cannot be removed either.

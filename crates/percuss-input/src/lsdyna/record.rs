@@ -99,26 +99,47 @@ fn parts(deck: &Deck<'_>, keyword: &Keyword<'_>) -> Result<Vec<Pair>, Error> {
     Ok(pairs)
 }
 
-/// Keywords that are left out, a warning for each kind: its first line, and how often it comes.
+/// Keywords that are left out, a warning for each kind.
 #[derive(Default)]
-struct Unread<'a>(Vec<(&'a str, &'static str, usize, usize)>);
+struct Unread<'a>(Vec<LeftOut<'a>>);
+
+/// A kind of keyword that is left out.
+struct LeftOut<'a> {
+    name: &'a str,
+    why: &'static str,
+    first_line: usize,
+    /// How often it comes after that.
+    more: usize,
+}
 
 impl<'a> Unread<'a> {
     fn add(&mut self, name: &'a str, why: &'static str, line: usize) {
         let is_full = self.0.len() == MOST_KINDS;
-        match self.0.iter_mut().find(|kind| kind.0 == name) {
-            Some(kind) => kind.3 += 1,
+        match self.0.iter_mut().find(|kind| kind.name == name) {
+            Some(kind) => kind.more += 1,
             // A deck of ever new keywords is no deck.
             None if is_full => {}
-            None => self.0.push((name, why, line, 0)),
+            None => self.0.push(LeftOut {
+                name,
+                why,
+                first_line: line,
+                more: 0,
+            }),
         }
     }
 
     fn warnings(self) -> impl Iterator<Item = String> {
-        let kinds = self.0.into_iter();
-        kinds.map(|(name, why, line, more)| match more {
-            0 => format!("line {line}: *{name} {why}"),
-            more => format!("line {line} and {more} more: *{name} {why}"),
+        self.0.into_iter().map(|kind| {
+            let LeftOut {
+                name,
+                why,
+                first_line,
+                more,
+            } = kind;
+            match more {
+                0 => format!("line {first_line}: *{name} {why}"),
+                more => format!("line {first_line} and {more} more: *{name} {why}"),
+            }
         })
     }
 }

@@ -21,6 +21,22 @@ pub(super) struct BodySums {
     pub(super) stabilisation: f64,
 }
 
+impl BodySums {
+    /// Sum over the rows of a body, of which a thread takes so many at least. The order is that of the rows, so threads change no bit.
+    pub(super) fn of_rows(
+        rows: usize,
+        least: usize,
+        of_row: impl Fn(usize) -> Self + Sync + Send,
+    ) -> Self {
+        let all: Vec<Self> = (0..rows)
+            .into_par_iter()
+            .with_min_len(least)
+            .map(of_row)
+            .collect();
+        all.into_iter().sum()
+    }
+}
+
 impl std::iter::Sum for BodySums {
     fn sum<I: Iterator<Item = Self>>(parts: I) -> Self {
         parts.fold(Self::default(), |sum, part| Self {
@@ -37,12 +53,9 @@ impl std::iter::Sum for BodySums {
 impl Body {
     /// Energies now, the velocities taken half a step on under the same loads.
     pub(super) fn energies(&self, step: f64, loads: &[Load<2>]) -> BodySums {
-        let rows: Vec<BodySums> = (0..self.rows.len())
-            .into_par_iter()
-            .with_min_len(LEAST_ROWS)
-            .map(|row| self.row_sums(row, step, loads))
-            .collect();
-        rows.into_iter().sum()
+        BodySums::of_rows(self.rows.len(), LEAST_ROWS, |row| {
+            self.row_sums(row, step, loads)
+        })
     }
 
     /// Kinetic energy as `½ m v₋·v₊` of the velocities half a step before and after, with which leapfrog conserves the energy of

@@ -182,11 +182,9 @@ impl CubicBody {
 
     /// Energies now, the velocities taken half a step on under the same loads.
     pub(super) fn energies(&self, step: f64, loads: &[Load<3>]) -> BodySums {
-        let layers: Vec<BodySums> = (0..self.layers.len())
-            .into_par_iter()
-            .map(|number| self.layer_energies(number, step, loads))
-            .collect();
-        layers.into_iter().sum()
+        BodySums::of_rows(self.layers.len(), 1, |number| {
+            self.layer_energies(number, step, loads)
+        })
     }
 
     /// Kinetic energy as `½ m v₋·v₊` of the velocities half a step before and after.

@@ -326,12 +326,9 @@ impl StressBody {
 
     /// Energies now, the velocities taken half a step on under the same loads.
     pub(super) fn energies(&self, step: f64, loads: &[Load<2>]) -> BodySums {
-        let rows: Vec<BodySums> = (0..self.rows.len())
-            .into_par_iter()
-            .with_min_len(LEAST_ROWS)
-            .map(|row| self.row_sums(row, step, loads))
-            .collect();
-        rows.into_iter().sum()
+        BodySums::of_rows(self.rows.len(), LEAST_ROWS, |row| {
+            self.row_sums(row, step, loads)
+        })
     }
 
     /// Kinetic energy as of the lattice, with velocities half a step before and after.
