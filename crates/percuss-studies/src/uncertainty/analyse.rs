@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicU64;
 use super::{
     bands,
     design::{MAX_PARAMETERS, Rows},
-    indices::{SobolIndices, indices},
+    indices::{FEWEST_ROWS, SobolIndices, indices},
     perforation::Perforation,
     quantity::quantities,
     result::{Draw, Failures, Input, Nominal, QuantityResult, Uncertainty},
@@ -59,43 +59,38 @@ fn analysed(
     };
     let no_indices = no_indices(study, settings);
     let rows = Rows::new(settings.samples, settings.seed, study.axes.len());
-    let width = match no_indices {
-        None => rows.width(),
-        Some(_) => 1,
-    };
-    let at_velocities = settings.velocities.len() as u64 * settings.samples.min(bands::RUNS);
     let runner = Runner {
         study,
         kernel,
         observer,
-        total: 2 * study.axes.len() as u64 + settings.samples * width + at_velocities,
+        total: runs(study, settings) - 1,
         done: AtomicU64::new(0),
     };
     let (nominal, nominal_draw) = nominal(study, model, kernel, observer, &cancelled)?;
     let lows_and_highs = tornado::runs(&runner).map_err(cancelled)?;
-    let copula = study.copula.as_ref();
-    let inputs = |i: u64| {
-        let point = match width {
-            1 => rows.first(i),
-            _ => rows.point(i / width, i % width),
-        };
-        values(&study.axes, copula, &point)
-    };
+    let of = |point: Vec<f64>| values(&study.axes, study.copula.as_ref(), &point);
+    let draws = runner
+        .run(settings.samples, &|i| of(rows.first(i)), None)
+        .map_err(cancelled)?;
+    let others = rows.others();
     let mixed = runner
-        .run(settings.samples * width, &inputs, None)
+        .run(
+            index_rows(study, settings) * others,
+            &|i| of(rows.other(i / others, i % others)),
+            None,
+        )
         .map_err(cancelled)?;
     let at_velocities =
         bands::at_velocities(&runner, &settings.velocities, &rows, settings.samples)
             .map_err(cancelled)?;
 
-    let draws: Vec<Draw> = mixed.iter().step_by(width as usize).cloned().collect();
     let quantities = chosen(settings, &draws);
     let keys: Vec<&str> = study.axes.iter().map(|axis| axis.key.as_str()).collect();
-    let of = |quantity: &&'static ResultNumber| -> Option<QuantityResult> {
+    let result = |quantity: &&'static ResultNumber| -> Option<QuantityResult> {
         let found = draws.iter().filter_map(|draw| draw.value(quantity));
         let statistics = Statistics::of(found)?;
         let indices = no_indices.is_none().then(|| {
-            let rows = complete_rows(&mixed, width as usize, quantity);
+            let rows = complete_rows(&draws, &mixed, others as usize, quantity);
             indices(&rows, &keys, settings.seed)
         });
         let (indices, why): (Option<SobolIndices>, Option<String>) = match indices {
@@ -126,7 +121,7 @@ fn analysed(
         nominal,
         failures: failures(&draws),
         perforation: Perforation::of(draws.iter().map(|draw| draw.outcome)),
-        quantities: quantities.iter().filter_map(of).collect(),
+        quantities: quantities.iter().filter_map(result).collect(),
         no_indices,
         bands: at_velocities
             .iter()
@@ -138,6 +133,26 @@ fn analysed(
     };
     found.warnings = warnings(&found);
     Ok(found)
+}
+
+/// All runs of a study.
+pub fn runs(study: &Study, settings: &Settings) -> u64 {
+    let parameters = study.axes.len() as u64;
+    let of_indices = index_rows(study, settings) * (parameters + 1);
+    let at_velocities = settings.velocities.len() as u64 * settings.samples.min(bands::RUNS);
+    1 + 2 * parameters + settings.samples + of_indices + at_velocities
+}
+
+/// Rows of points that indices are estimated from: half of the samples leave them surer than the percentiles are.
+fn index_rows(study: &Study, settings: &Settings) -> u64 {
+    match no_indices(study, settings) {
+        None => settings
+            .samples
+            .div_ceil(2)
+            .max(FEWEST_ROWS)
+            .min(settings.samples),
+        Some(_) => 0,
+    }
 }
 
 /// Why there are no Sobol' indices, whatever the quantity.
@@ -213,10 +228,22 @@ fn chosen(settings: &Settings, draws: &[Draw]) -> Vec<&'static ResultNumber> {
     }
 }
 
-/// Values of the rows in which no run lacks one.
-fn complete_rows(runs: &[Draw], width: usize, quantity: &ResultNumber) -> Vec<Vec<f64>> {
-    let row = |row: &[Draw]| row.iter().map(|run| run.value(quantity)).collect();
-    runs.chunks(width).filter_map(row).collect()
+/// Values of the rows in which no run lacks one: that of the sample, and those of its other points.
+fn complete_rows(
+    draws: &[Draw],
+    mixed: &[Draw],
+    others: usize,
+    quantity: &ResultNumber,
+) -> Vec<Vec<f64>> {
+    let row = |(first, others): (&Draw, &[Draw])| {
+        let row = std::iter::once(first).chain(others);
+        row.map(|run| run.value(quantity)).collect()
+    };
+    draws
+        .iter()
+        .zip(mixed.chunks(others))
+        .filter_map(row)
+        .collect()
 }
 
 fn inputs_of(axes: &[Axis]) -> Vec<Input> {

@@ -29,20 +29,19 @@ impl Rows {
         point
     }
 
-    /// Points of a row: A, B, and A with coordinate i of B for each i.
-    pub(super) fn width(&self) -> u64 {
-        self.dimensions as u64 + 2
+    /// Points of a row besides that of A.
+    pub(super) fn others(&self) -> u64 {
+        self.dimensions as u64 + 1
     }
 
-    /// One of the points of a row.
-    pub(super) fn point(&self, row: u64, place: u64) -> Vec<f64> {
+    /// One of these points: B, and A with coordinate i of B for each i.
+    pub(super) fn other(&self, row: u64, place: u64) -> Vec<f64> {
         let mut a = self.points.unit(row);
         let b = a.split_off(self.dimensions);
         match place {
-            0 => a,
-            1 => b,
+            0 => b,
             _ => {
-                let i = place as usize - 2;
+                let i = place as usize - 1;
                 a[i] = b[i];
                 a
             }

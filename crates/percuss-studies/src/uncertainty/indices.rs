@@ -1,7 +1,14 @@
 //! First-order and total Sobol' indices.
 //!
-//! First order: the estimator of Saltelli and others (2010) [saltelli2010]. Total: that of Jansen (1999) [jansen1999]. Intervals:
-//! percentiles of a bootstrap over the rows of the design [efron1993].
+//! With values a, b and m at A, B and A with coordinate i of B, less their mean, and T₀ the estimate of Jansen (1999) [jansen1999],
+//! `T₀ = mean((a - m)²) / 2 / var(a, m)`:
+//!
+//! - first order `mean(b (m - (1 - T₀) a)) / var(b, m)`; with `b (m - a)` that of Saltelli and others (2010) [saltelli2010];
+//! - total `T₀ + T₀ mean(a b) / var(a, m)`.
+//!
+//! The product a b has a mean of zero. Its part in both estimates is that which lets them scatter least where parameters act one by one,
+//! so that the indices of the parameter that matters most are as sure as the small ones. Variances are pooled for the same reason [janon2014].
+//! Intervals: percentiles of a bootstrap over the rows of the design [efron1993].
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -17,7 +24,7 @@ const RESAMPLES: u64 = 1000;
 /// Purpose that random numbers are drawn for: none of those of a sweep's points.
 const BOOTSTRAP: u64 = 4;
 /// Fewest rows that an interval can be told from.
-const FEWEST: usize = 16;
+pub(super) const FEWEST_ROWS: u64 = 16;
 /// Variance below this part of the square of the largest value is rounding.
 const ROUNDING: f64 = 1e-20;
 
@@ -46,7 +53,7 @@ pub struct Index {
 /// # Errors
 /// Why there are none, in words.
 pub(super) fn indices(rows: &[Vec<f64>], keys: &[&str], seed: u64) -> Result<SobolIndices, String> {
-    if rows.len() < FEWEST {
+    if rows.len() < FEWEST_ROWS as usize {
         return Err(format!(
             "only {} of the rows of points have values in all their runs",
             rows.len()
@@ -60,7 +67,8 @@ pub(super) fn indices(rows: &[Vec<f64>], keys: &[&str], seed: u64) -> Result<Sob
         .iter()
         .flatten()
         .fold(0.0_f64, |size, v| size.max(v.abs()));
-    let spread = variance(&sums(&terms, 0..rows.len()));
+    let means = means(&terms, 0..rows.len());
+    let spread = 0.5 * (means[0] + means[1]);
     if spread.is_nan() || spread <= ROUNDING * size * size {
         return Err("the value is the same in all runs".to_owned());
     }
@@ -96,20 +104,20 @@ pub(super) fn indices(rows: &[Vec<f64>], keys: &[&str], seed: u64) -> Result<Sob
     })
 }
 
-/// What a row adds: values and squares at A and B, and for each parameter the products of either index.
+/// What a row adds: squares at A and B and their product; for each parameter the square at its point, its product with B, and half the square
+/// of its difference from A.
 fn terms(row: &[f64], mean: f64) -> Vec<f64> {
     let (a, b) = (row[0] - mean, row[1] - mean);
-    let mut terms = vec![a + b, a * a + b * b];
+    let mut terms = vec![a * a, b * b, a * b];
     for mixed in &row[2..] {
         let mixed = mixed - mean;
-        terms.push(b * (mixed - a));
-        terms.push(0.5 * (a - mixed).powi(2));
+        terms.extend([mixed * mixed, b * mixed, 0.5 * (a - mixed).powi(2)]);
     }
     terms
 }
 
 /// Means of the terms of some rows.
-fn sums(terms: &[Vec<f64>], rows: impl ExactSizeIterator<Item = usize>) -> Vec<f64> {
+fn means(terms: &[Vec<f64>], rows: impl ExactSizeIterator<Item = usize>) -> Vec<f64> {
     let count = rows.len() as f64;
     let mut sums = vec![0.0; terms[0].len()];
     for row in rows {
@@ -120,13 +128,19 @@ fn sums(terms: &[Vec<f64>], rows: impl ExactSizeIterator<Item = usize>) -> Vec<f
     sums.iter().map(|sum| sum / count).collect()
 }
 
-fn variance(means: &[f64]) -> f64 {
-    0.5 * means[1] - (0.5 * means[0]).powi(2)
-}
-
 /// First-order and total index of each parameter in turn.
 fn estimates(terms: &[Vec<f64>], rows: impl ExactSizeIterator<Item = usize>) -> Vec<f64> {
-    let means = sums(terms, rows);
-    let variance = variance(&means);
-    means[2..].iter().map(|mean| mean / variance).collect()
+    let means = means(terms, rows);
+    let [aa, bb, ab] = [means[0], means[1], means[2]];
+    let of_parameter = |of: &[f64]| {
+        let [mm, bm, difference] = [of[0], of[1], of[2]];
+        let (with_a, with_b) = (0.5 * (aa + mm), 0.5 * (bb + mm));
+        let total = difference / with_a;
+        let shared = total.clamp(0.0, 1.0);
+        [
+            (bm - (1.0 - shared) * ab) / with_b,
+            total + shared * ab / with_a,
+        ]
+    };
+    means[3..].chunks(3).flat_map(of_parameter).collect()
 }

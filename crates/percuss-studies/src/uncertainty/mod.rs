@@ -18,7 +18,7 @@ mod study;
 mod tests;
 mod tornado;
 
-pub use analyse::analyse;
+pub use analyse::{analyse, runs};
 pub use axisymmetric::{
     AxisymmetricPoint, AxisymmetricSpread, FEWEST_POINTS, MOST_POINTS, correct,
 };

@@ -49,7 +49,7 @@ deviation and percentiles of each result with 95 % intervals, the probability of
 perforation, the effect of each parameter from low to high (tornado), and the
 first-order and total-effect Sobol' indices: the fraction of the variance due to
 a parameter alone, and including its interactions. With N samples and d
-parameters the indices take N (d + 1) additional runs. Correlated parameters
+parameters the indices take N (d + 1) / 2 additional runs. Correlated parameters
 have no such indices.
 
 With --velocity the analysis is repeated at each of several impact velocities,
@@ -151,7 +151,8 @@ impl Uncertainty {
     pub fn run(&self) -> Result<(), Failure> {
         let task = self.task(&VirtualFiles::default())?;
         let of_run = cost::of_run(task.model, &task.study.scenario);
-        let whole = cost::of_runs(of_run, task.settings.samples as f64);
+        let runs = uncertainty::runs(&task.study, &task.settings);
+        let whole = cost::of_runs(of_run, runs as f64);
         cost::tell(whole, self.quiet);
         let mut progress = Progress::new(!self.quiet);
         let found = self.find(&task, &workers::stop_on_request(), &mut progress.callback());

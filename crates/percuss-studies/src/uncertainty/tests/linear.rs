@@ -38,7 +38,7 @@ fn a_linear_model_has_its_exact_statistics_and_indices() {
         );
     }
     let indices = depth.indices.as_ref().unwrap();
-    assert_eq!(indices.rows, 4096);
+    assert_eq!(indices.rows, 2048);
     for (i, index) in indices.parameters.iter().enumerate() {
         let exact = part(i) / deviation.powi(2);
         holds(index.first_order, exact, 0.01, &index.key);
@@ -61,7 +61,7 @@ fn a_linear_model_has_its_exact_statistics_and_indices() {
             .windows(2)
             .all(|pair| pair[0].length() >= pair[1].length())
     );
-    assert_eq!(found.runs, 1 + 6 + 5 * 4096);
+    assert_eq!(found.runs, 1 + 6 + 4096 + 4 * 2048);
 }
 
 #[test]
