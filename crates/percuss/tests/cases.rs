@@ -4,8 +4,10 @@
 //! known errors of the files again; exact, published and measured values stay as they are. The difference is for a person to read.
 
 use std::{
+    collections::HashMap,
     env, fs,
     path::{Path, PathBuf},
+    rc::Rc,
 };
 
 use percuss::{
@@ -18,24 +20,39 @@ use toml_edit::{DocumentMut, Item, value};
 
 use crate::common::expected::{Expected, File, Kind};
 
-fn run(folder: &Path, expected: &Expected, velocity: Option<f64>) -> (Scenario, RunResult) {
+/// Runs of a case by model and impact velocity: entries share them.
+struct Runs<'a> {
+    folder: &'a Path,
+    done: HashMap<(String, Option<u64>), Rc<(Scenario, RunResult)>>,
+}
+
+impl Runs<'_> {
+    fn run(&mut self, expected: &Expected, velocity: Option<f64>) -> Rc<(Scenario, RunResult)> {
+        let key = (expected.model.clone(), velocity.map(f64::to_bits));
+        let run = || Rc::new(run(self.folder, &expected.model, velocity));
+        Rc::clone(self.done.entry(key).or_insert_with(run))
+    }
+}
+
+fn run(folder: &Path, model: &str, velocity: Option<f64>) -> (Scenario, RunResult) {
     let mut scenario =
         case::load(folder.join("scenario.toml")).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(scenario.name, folder.file_name().unwrap().to_string_lossy());
     if let Some(velocity) = velocity {
         scenario.impact_velocity = velocity;
     }
-    let model = model::model(&expected.model).unwrap();
+    let model = model::model(model).unwrap();
     let result = model::run(model, &scenario, &mut Control::recording())
         .unwrap_or_else(|error| panic!("{error}"));
     (scenario, result)
 }
 
 /// The number of an entry as the program computes it.
-fn compute(folder: &Path, expected: &Expected) -> f64 {
+fn compute(runs: &mut Runs<'_>, expected: &Expected) -> f64 {
+    let folder = runs.folder;
     if let Some(bracket) = &expected.bracket {
         return limit(
-            folder,
+            runs,
             expected,
             bracket.each_ref().map(|velocity| velocity.si()),
         );
@@ -44,23 +61,23 @@ fn compute(folder: &Path, expected: &Expected) -> f64 {
         .impact_velocity
         .as_ref()
         .map(|velocity| velocity.si());
-    let (scenario, result) = run(folder, expected, velocity);
+    let (scenario, result) = &*runs.run(expected, velocity);
     let span = expected.mean_from.as_ref().zip(expected.mean_to.as_ref());
     let span = span.map(|(from, to)| (from.si(), to.si()));
     match (span, expected.quantity.as_str()) {
         (Some((from, to)), "interface_velocity_m_s") => {
-            crate::common::mean(&result, from, to, |s| s.interface_velocity)
+            crate::common::mean(result, from, to, |s| s.interface_velocity)
         }
         (Some((from, to)), "back_velocity_m_s") => {
-            crate::common::mean(&result, from, to, |s| s.back_velocity)
+            crate::common::mean(result, from, to, |s| s.back_velocity)
         }
         (Some((from, to)), "contact_force_kn") => {
-            crate::common::mean(&result, from, to, |s| s.contact_force * 1e-3)
+            crate::common::mean(result, from, to, |s| s.contact_force * 1e-3)
         }
         (None, "projectile_mass_g") => scenario.projectile.mass * 1e3,
         (None, "perforates") => f64::from(result.outcome == Outcome::Perforated),
         (None, quantity) => {
-            let record = serde_json::to_value(ResultRecord::new(&scenario, &result)).unwrap();
+            let record = serde_json::to_value(ResultRecord::new(scenario, result)).unwrap();
             // A name, or a path such as `/fragments/2/velocity_m_s`.
             let number = record.pointer(quantity).or_else(|| record.get(quantity));
             number
@@ -72,15 +89,17 @@ fn compute(folder: &Path, expected: &Expected) -> f64 {
 }
 
 /// Middle of a bracket of impact velocities, of which only the upper one perforates.
-fn limit(folder: &Path, expected: &Expected, bracket: [f64; 2]) -> f64 {
+fn limit(runs: &mut Runs<'_>, expected: &Expected, bracket: [f64; 2]) -> f64 {
     assert_eq!(expected.quantity, "ballistic_limit_m_s");
-    let perforates = bracket
-        .map(|velocity| run(folder, expected, Some(velocity)).1.outcome == Outcome::Perforated);
+    let perforates = bracket.map(|velocity| {
+        let (_, result) = &*runs.run(expected, Some(velocity));
+        result.outcome == Outcome::Perforated
+    });
     assert_eq!(
         perforates,
         [false, true],
         "{}: the limit is not between {bracket:?} m/s; find it with `percuss limit` and write the new bracket",
-        folder.display()
+        runs.folder.display()
     );
     0.5 * (bracket[0] + bracket[1])
 }
@@ -158,8 +177,12 @@ fn check(name: &str) {
     let mut document: DocumentMut = text.parse().unwrap();
     let entries = document["expected"].as_array_of_tables_mut().unwrap();
     let mut contradictions = Vec::new();
+    let mut runs = Runs {
+        folder: &folder,
+        done: HashMap::new(),
+    };
     for (expected, table) in file.expected.iter().zip(entries.iter_mut()) {
-        let computed = compute(&folder, expected);
+        let computed = compute(&mut runs, expected);
         println!(
             "{name}: {} = {computed:.6}{}",
             expected.quantity,
