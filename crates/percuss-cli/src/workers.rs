@@ -18,6 +18,8 @@ use crate::failure::Failure;
 
 /// Most threads: more take memory and wait for each other.
 pub const MOST_THREADS: u16 = 1024;
+/// Addresses that the stack of a thread takes [bytes].
+const STACK: u64 = 2 << 20;
 /// Variable of the environment with the number of threads.
 const VARIABLE: &str = "RAYON_NUM_THREADS";
 
@@ -36,6 +38,7 @@ pub fn start() -> Result<(), Failure> {
                 help: format!("allowed: 1 to {MOST_THREADS}, and 0 for one per core"),
             });
         }
+        check_stacks(wanted.unwrap_or(0) as u64)?;
     }
     // They are started once, and what failed cannot be tried again.
     static POOL: OnceLock<Result<(), String>> = OnceLock::new();
@@ -67,9 +70,26 @@ pub fn start() -> Result<(), Failure> {
 pub fn pool(threads: Option<u16>) -> Result<rayon::ThreadPool, Failure> {
     let mut pool = rayon::ThreadPoolBuilder::new();
     if let Some(threads) = threads {
+        check_stacks(threads.into())?;
         pool = pool.num_threads(usize::from(threads));
     }
     pool.build().map_err(|error| refused(&error))
+}
+
+/// Refuses threads whose stacks exceed the limit of addresses: once all are taken, the C library ends the program.
+fn check_stacks(threads: u64) -> Result<(), Failure> {
+    #[cfg(unix)]
+    {
+        let limit = rustix::process::getrlimit(rustix::process::Resource::As).current;
+        if limit.is_some_and(|limit| threads * STACK > limit) {
+            return Err(refused(&format!(
+                "{threads} threads take more addresses than `ulimit -v` allows"
+            )));
+        }
+    }
+    #[cfg(not(unix))]
+    let _ = threads * STACK;
+    Ok(())
 }
 
 fn refused(error: &dyn Display) -> Failure {
