@@ -43,10 +43,11 @@ impl Range {
         because: "the resistance is that of an infinite body: free surfaces within a few diameters weaken it",
     };
 
-    /// Projectiles that models of a rigid one take: a strength near that of the plate leaves it open which of the two deforms.
+    /// Projectiles that models of a rigid one take. The softest with published limits, fragment simulators on ultra-high-hardness
+    /// armour, have 0.52.
     pub const RIGID_AGAINST_PLATE: Self = Self {
         measure: Measure::StrengthToPlate,
-        min: 2.0 / 3.0,
+        min: 0.5,
         max: f64::INFINITY,
         outside: Outside::NotApplicable,
         because: "a softer projectile flattens against the plate, and the model takes it as rigid",
