@@ -13,6 +13,7 @@ pub fn limit_headline(limits: &Limits) -> Option<String> {
             let error = entry.expected_error.as_ref();
             let error = match error {
                 Some(e) => format!(", model error {}", e.errors.describe()),
+                None if limits.measured().is_some() => String::new(),
                 None => unknown_error(limits),
             };
             format!(
