@@ -241,7 +241,7 @@ function select(plot: uPlot, zoom: Zoom): void {
 }
 
 // Kind of line of a series in the legend: curves of one colour differ by it.
-function sampleOf(plot: uPlot, series: number): uPlot.Legend.BorderStyle {
+function sampleOf(plot: uPlot, series: number): "solid" | "dotted" | "dashed" {
   const dashes = plot.series[series]?.dash;
   if (!dashes?.length) return "solid";
   return (dashes[0] ?? 0) <= 2 ? "dotted" : "dashed";
