@@ -47,7 +47,7 @@ def run(
         The case, or its file.
     model : str, optional
         Name of the model; :func:`percuss.models` lists them. When not given, it is ``chain``; where that does not apply, it is the model
-        that :func:`compare` recommends, and ``result.model_choice`` says why.
+        that :func:`compare` recommends, or ``axi`` where no quick model applies, and ``result.model_choice`` says why.
     reference : str, optional
         Meshes of the axisymmetric answer: ``"standard"``, 3, 4 and 6 cells along the projectile's radius, or ``"fine"``, 6, 8 and 12.
         Then ``result.axisymmetric`` has the ``value`` in the limit of fine meshes of the main ``quantity``, its ``uncertainty`` by the
