@@ -374,7 +374,7 @@ fn where_no_model_applies_the_error_gives_every_reason() {
     assert_eq!((said.code, said.stdout.as_str()), (2, ""));
     assert!(
         said.stderr
-            .starts_with("error: no quick model applies to this case"),
+            .starts_with("error: no model applies to this case"),
         "{}",
         said.stderr
     );
