@@ -44,7 +44,7 @@ test("studies come to an end with tables, curves and files", async () => {
 // What an analysis of the page came to.
 const analysis = async (page, done) => {
   const of = await study(page, "Uncertainty");
-  await of.getByRole("button", { name: "Uncertainty" }).click();
+  await of.getByRole("button", { name: "Uncertainty", exact: true }).click();
   await of.getByText(done).first().waitFor({ timeout: 120_000 });
   return of;
 };
