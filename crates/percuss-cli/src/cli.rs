@@ -178,6 +178,7 @@ impl Command {
             Self::Calibrate(command) => command.figures.figure_width,
             Self::Uncertainty(command) => command.figures.figure_width,
             Self::Converge(command) => command.figures.figure_width,
+            Self::Validate(command) => command.figures.figure_width,
             Self::Materials(command) => command.figure_width(),
             _ => None,
         }

@@ -138,10 +138,10 @@ fn a_wrong_table_is_refused_with_its_place() {
             "psi",
         ),
         (
-            "time (us);stress (MPa)\n0;0\n1;1\n",
+            "time (us):stress (MPa)\n0:0\n1:1\n",
             "rod.csv:1:1",
             "is no unit of `time`",
-            "columns are separated by commas",
+            "columns are separated by commas, semicolons or tabs",
         ),
         (
             "time_us,stress_mpa\n0,0\n2,1\n1,2\n",

@@ -365,7 +365,7 @@ fn a_case_that_the_chain_does_not_take_runs_by_the_recommended_model() {
 fn where_no_model_applies_the_error_gives_every_reason() {
     let folder = shot(&OGIVE.replace(
         "target = { material = \"6061-t6\", thickness = \"semi-infinite\" }",
-        "target = { rigid_wall = true }",
+        "target = { layers = [{ material = \"4340\", thickness = \"4 mm\" }, { material = \"4340\", thickness = \"4 mm\", gap = \"9 mm\" }] }",
     ));
     let said = percuss(
         folder.path(),
@@ -374,7 +374,7 @@ fn where_no_model_applies_the_error_gives_every_reason() {
     assert_eq!((said.code, said.stdout.as_str()), (2, ""));
     assert!(
         said.stderr
-            .starts_with("error: no quick model applies to this case"),
+            .starts_with("error: no model applies to this case"),
         "{}",
         said.stderr
     );

@@ -18,6 +18,47 @@ pub struct CsvTable<'a> {
     pub text: &'a str,
     /// Names of its columns.
     pub header: Vec<String>,
+    /// What stands between its columns.
+    pub separator: Separator,
+}
+
+/// Help where a line has one column.
+pub const SEPARATORS_HELP: &str = "; columns are separated by commas, semicolons or tabs";
+
+/// Separator of columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Separator {
+    /// `,`
+    Comma,
+    /// `;`, as spreadsheets write it where a comma stands before decimals.
+    Semicolon,
+    /// A tab, as a table comes out of a spreadsheet by its clipboard.
+    Tab,
+}
+
+impl Separator {
+    /// That of a text: the first line names the columns, in which units and names are without commas wherever another one separates them.
+    fn of(text: &str) -> Self {
+        let first = text.lines().find(|line| !line.trim().is_empty());
+        let first = first.unwrap_or_default();
+        if first.contains(',') {
+            Self::Comma
+        } else if first.contains(';') {
+            Self::Semicolon
+        } else if first.contains('\t') {
+            Self::Tab
+        } else {
+            Self::Comma
+        }
+    }
+
+    const fn byte(self) -> u8 {
+        match self {
+            Self::Comma => b',',
+            Self::Semicolon => b';',
+            Self::Tab => b'\t',
+        }
+    }
 }
 
 /// A row of a table.
@@ -40,8 +81,10 @@ impl<'a> CsvTable<'a> {
             file,
             text,
             header: Vec::new(),
+            separator: Separator::of(text),
         };
         let mut reader = csv::ReaderBuilder::new()
+            .delimiter(table.separator.byte())
             .flexible(true)
             .from_reader(text.as_bytes());
         let parsed = reader.headers().cloned().and_then(|header| {
@@ -55,6 +98,29 @@ impl<'a> CsvTable<'a> {
         records.retain(|record| record.iter().any(|field| !field.trim().is_empty()));
         table.header = header.iter().map(|name| name.trim().to_owned()).collect();
         Ok((table, records))
+    }
+
+    /// Bytes of field `index` of the record that begins at `start`, its quotes included; at least one byte where there is one.
+    pub fn field_span(&self, start: usize, index: usize) -> Range<usize> {
+        let (text, separator) = (self.text, self.separator.byte());
+        // The reader counts line breaks that it skips to the record that follows.
+        let skipped = text[start..].find(|c| c != '\n' && c != '\r').unwrap_or(0);
+        let (mut begin, mut field, mut quoted) = (start + skipped, 0, false);
+        for (at, byte) in text.bytes().enumerate().skip(begin) {
+            match byte {
+                b'"' => quoted = !quoted,
+                b'\n' | b'\r' if !quoted => return begin..at.max(begin + 1),
+                byte if byte == separator && !quoted => {
+                    if field == index {
+                        return begin..at.max(begin + 1);
+                    }
+                    field += 1;
+                    begin = at + 1;
+                }
+                _ => {}
+            }
+        }
+        begin..text.len().max(begin)
     }
 
     /// An error at bytes of the text.
@@ -101,7 +167,11 @@ impl CsvRow<'_> {
         if text.is_empty() {
             return Ok(None);
         }
-        match text.parse::<f64>() {
+        let parsed = match self.table.separator {
+            Separator::Comma => text.parse::<f64>(),
+            Separator::Semicolon | Separator::Tab => text.replacen(',', ".", 1).parse(),
+        };
+        match parsed {
             Ok(number) if number.is_finite() => Ok(Some(number)),
             _ => Err(self.error(
                 column,
@@ -161,27 +231,6 @@ impl CsvRow<'_> {
             .map_or(0, |position| position.byte() as usize);
         let start = start.min(self.table.text.len());
         let at = self.table.header.iter().position(|name| name == column);
-        field_span(self.table.text, start, at.unwrap_or(0))
+        self.table.field_span(start, at.unwrap_or(0))
     }
-}
-
-/// Bytes of field `index` of the record that begins at `start`, its quotes included; at least one byte where there is one.
-pub fn field_span(text: &str, start: usize, index: usize) -> Range<usize> {
-    // The reader counts line breaks that it skips to the record that follows.
-    let skipped = text[start..].find(|c| c != '\n' && c != '\r').unwrap_or(0);
-    let (mut begin, mut field, mut quoted) = (start + skipped, 0, false);
-    for (at, byte) in text.bytes().enumerate().skip(begin) {
-        match byte {
-            b'"' => quoted = !quoted,
-            b',' | b'\n' | b'\r' if !quoted => {
-                if field == index || byte != b',' {
-                    return begin..at.max(begin + 1);
-                }
-                field += 1;
-                begin = at + 1;
-            }
-            _ => {}
-        }
-    }
-    begin..text.len().max(begin)
 }

@@ -1,7 +1,7 @@
 //! Axisymmetric answer as rows of a label and a value, for the terminal and the page.
 
 use percuss::{
-    axisymmetric::{AxisymmetricAnswer, HIGHEST_ORDER},
+    axisymmetric::{AxisymmetricAnswer, HIGHEST_ORDER, MODEL},
     outcome::BandQuantity,
     summary::ResultRecord,
 };
@@ -45,16 +45,34 @@ pub fn rows(answer: &AxisymmetricAnswer, beside: Option<&ResultRecord>) -> Vec<R
     };
     let unit = quantity.unit();
     let mut add = |label: &str, value: String| rows.push((label.to_owned(), value));
+    // The same model on the mesh of the case is one of the meshes.
+    let beside = beside.filter(|record| record.model != MODEL);
     if let Some((record, own)) = beside.and_then(|record| Some((record, record.value(quantity)?))) {
         let difference = match value {
             0.0 => String::new(),
             _ => format!(", {:+.0} %", 100.0 * (own / value - 1.0)).replace('-', "−"),
         };
-        let label = format!("one-dimensional ({})", record.model);
+        let kind = match record.model {
+            "chain" | "fdm" => "one-dimensional",
+            _ => "model",
+        };
+        let label = format!("{kind} ({})", record.model);
         add(&label, format!("{}{difference}", number(own, unit)));
     }
     if let Some(outcome) = answer.outcome {
-        add("outcome", outcome.describe().to_owned());
+        let own = outcome.describe();
+        let other = beside.filter(|record| record.outcome != outcome);
+        add(
+            "outcome",
+            match other {
+                Some(record) => format!(
+                    "{own}; {} gives: {}",
+                    record.model,
+                    record.outcome.describe()
+                ),
+                None => own.to_owned(),
+            },
+        );
     }
     for (label, other) in [
         ("residual velocity", BandQuantity::ResidualVelocity),

@@ -11,9 +11,11 @@ pub fn limit_headline(limits: &Limits) -> Option<String> {
         Some(entry) => {
             let value = entry.ballistic_limit_m_s?;
             let error = entry.expected_error.as_ref();
-            let error = error.map_or_else(String::new, |e| {
-                format!(", model error {}", e.errors.describe())
-            });
+            let error = match error {
+                Some(e) => format!(", model error {}", e.errors.describe()),
+                None if limits.measured().is_some() => String::new(),
+                None => unknown_error(limits),
+            };
             format!(
                 "Ballistic limit {} m/s ({}){error}{}",
                 significant(value, 4),
@@ -27,6 +29,24 @@ pub fn limit_headline(limits: &Limits) -> Option<String> {
         ),
     };
     Some(line)
+}
+
+/// What stands in place of an error that is not known: the range of all limits.
+fn unknown_error(limits: &Limits) -> String {
+    let values = limits.results.iter().filter_map(|l| l.ballistic_limit_m_s);
+    let axisymmetric = limits.axisymmetric.as_ref();
+    let values = values.chain(axisymmetric.and_then(|limit| limit.ballistic_limit_m_s));
+    let (low, high) = values.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), value| {
+        (low.min(value), high.max(value))
+    });
+    if high <= low {
+        return ", model error not known".to_owned();
+    }
+    format!(
+        ", model error not known: all models give {} to {} m/s",
+        significant(low, 3),
+        significant(high, 3)
+    )
 }
 
 /// Difference from the measured limit in words; empty without one.

@@ -150,6 +150,12 @@ fn curve_words(curve: &CurveComparison) -> String {
             curve.reason.as_deref().unwrap_or_default()
         ),
     };
+    if curve.has_opposite_sign {
+        words += match curve.quantity {
+            "stress" | "strain" => "; the curves have opposite signs: compression is positive here",
+            _ => "; the curves have opposite signs",
+        };
+    }
     if !curve.unread_columns.is_empty() {
         words += &format!("; columns not read: {}", curve.unread_columns.join(", "));
     }

@@ -100,8 +100,11 @@ fn interval(entry: &Estimate) -> Option<String> {
 
 fn caption(v50: &V50) -> String {
     format!(
-        "{} tests: {} partial and {} complete penetrations",
-        v50.tests,
+        "{}: {} partial and {} complete penetrations",
+        match v50.tests {
+            1 => "1 test".to_owned(),
+            tests => format!("{tests} tests"),
+        },
         v50.tests - v50.perforated,
         v50.perforated
     )

@@ -41,6 +41,9 @@ pub struct CurveComparison {
     pub unread_columns: Vec<String>,
     /// Why there are no differences; null where there are.
     pub reason: Option<String>,
+    /// Whether the difference is less than half as large with the other sign of the measured values.
+    #[serde(skip)]
+    pub has_opposite_sign: bool,
     /// Curve of the run in SI units; empty where it has none. Only figures need it.
     #[serde(skip)]
     pub computed: Points,
@@ -83,6 +86,7 @@ pub(crate) fn compare_curve(curve: &MeasuredCurve, result: &RunResult) -> CurveC
         relative_rms_difference: of(|d| d.rms / d.measured_rms).filter(|part| part.is_finite()),
         unread_columns: curve.unread_columns.clone(),
         reason,
+        has_opposite_sign: difference.is_some_and(|d| d.mirrored_rms < 0.5 * d.rms),
         computed: points,
     }
 }
@@ -157,6 +161,8 @@ struct Difference {
     to: f64,
     largest: f64,
     rms: f64,
+    /// With the other sign of the measured values.
+    mirrored_rms: f64,
     measured_rms: f64,
 }
 
@@ -208,6 +214,7 @@ impl Difference {
             to,
             largest: pairs.iter().map(|pair| pair.0.abs()).fold(0.0, f64::max),
             rms: mean_square(|pair| pair.0).sqrt(),
+            mirrored_rms: mean_square(|pair| pair.0 + 2.0 * pair.1).sqrt(),
             measured_rms: mean_square(|pair| pair.1).sqrt(),
         })
     }
@@ -243,6 +250,22 @@ mod tests {
         near(found.rms, (26.0_f64 / 6.0).sqrt());
         near(found.measured_rms, (26.0_f64 / 6.0).sqrt());
         assert_eq!((found.from, found.to, found.largest), (1.0, 3.0, 3.0));
+    }
+
+    #[test]
+    fn an_opposite_sign_is_noticed() {
+        let found = |sign: f64| {
+            let computed = [(0.0, 0.0), (1.0, 100.0), (2.0, 90.0)];
+            let measured = computed.map(|(time, value)| (time, sign * 1.1 * value));
+            let found = Difference::of(&computed, &measured).unwrap();
+            (
+                found.rms / found.measured_rms,
+                found.mirrored_rms / found.measured_rms,
+            )
+        };
+        let ((same, other), (opposite, mirrored)) = (found(1.0), found(-1.0));
+        assert!((same - mirrored).abs() + (other - opposite).abs() < 1e-12);
+        assert!(same < 0.1 && opposite > 1.9, "{same} {opposite}");
     }
 
     /// A peak between two samples of the run counts.

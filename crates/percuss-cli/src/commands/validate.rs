@@ -16,6 +16,7 @@ use serde::Serialize;
 use crate::{
     cost,
     failure::Failure,
+    figure_formats::FigureArgs,
     file_list::FileList,
     output,
     progress::Progress,
@@ -40,13 +41,14 @@ target_material, measured, unit, and for targets other than `rigid-wall`
 thickness_mm.
 
 With --out DIR the report is written as one HTML page and as Markdown with its
-figures, and the numbers as CSV and Parquet.";
+figures as PNG, and the numbers as CSV and Parquet. --figures adds other formats.";
 
 const AFTER_HELP: &str = "\
 Examples:
   percuss validate
   percuss validate --model chain --kind taylor
   percuss validate --out validation
+  percuss validate --data tests.csv --out mine --figures svg,pdf
   percuss validate --data tests.csv --data builtin
   percuss validate --json > validation.json
 
@@ -73,6 +75,8 @@ pub struct Validate {
     /// Write the report and its numbers to a folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    pub figures: FigureArgs,
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]
     json: bool,
@@ -162,7 +166,7 @@ impl Validate {
                 command: self.command(),
             };
             let _ = on_progress(1.0, "drawing figures");
-            files = validation::write(out, &validation, &origin)?;
+            files = validation::write(out, &validation, &origin, self.figures.formats())?;
         }
         Ok(ValidationOutput {
             validation,

@@ -138,12 +138,11 @@ fn unknown_name(what: &str, name: &str, allowed: &[&str]) -> Reworded {
 }
 
 /// How required keys are written that a user may not guess.
-const EXAMPLES: [(&str, &str); 10] = [
+const EXAMPLES: [(&str, &str); 9] = [
     ("density", "\"8960 kg/m3\""),
     ("diameter", "\"4.8 mm\""),
     ("impact_velocity", "\"230 m/s\""),
     ("material", "\"copper\""),
-    ("name", "\"My alloy\""),
     ("poissons_ratio", "0.34"),
     ("position", "\"5 mm\""),
     ("source", "\"my-notebook\""),

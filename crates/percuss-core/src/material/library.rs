@@ -95,10 +95,14 @@ impl Library {
     /// Adds records; one with an id that exists already replaces it.
     pub fn add(&mut self, table: &MaterialTable, origin: &str) {
         for (id, material) in table {
+            let mut material = material.clone();
+            if material.name.is_empty() {
+                material.name.clone_from(id);
+            }
             let entry = MaterialEntry {
                 id: id.clone(),
                 origin: origin.to_owned(),
-                material: Arc::new(material.clone()),
+                material: Arc::new(material),
             };
             self.entries.insert(id.clone(), entry);
         }

@@ -53,7 +53,8 @@ pub use yield_point::{Called, LaneTrial, Trial, YieldPoint};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// Plain name, for example `OFHC copper`.
+    /// Plain name, for example `OFHC copper`; the id by default.
+    #[serde(default)]
     pub name: String,
     /// Group of rival records that describe the same material; its recommended record answers to this name.
     #[serde(default, skip_serializing_if = "Option::is_none")]

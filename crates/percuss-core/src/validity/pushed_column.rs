@@ -26,9 +26,15 @@ pub fn pushed_column_warning(scenario: &Scenario, depth: Option<f64>) -> Option<
         deep += layer.thickness.unwrap_or(f64::INFINITY);
         is_free(i) && depth.is_some_and(|depth| depth > PUSHED * deep)
     });
+    // The axisymmetric model takes no layers apart from each other.
+    let remedy = match layers.iter().any(|layer| layer.gap > 0.0) {
+        true => "no model here that computes a plug or a bulge takes layers with a gap",
+        false => "`--model axi` and `percuss limit` say whether it is perforated",
+    };
     is_pushed.then(|| {
-        "that the target holds is not a result: a column without a plug or a bulge overestimates the resistance of a plate with a \
-         free face; `--model axi` and `percuss limit` say whether it is perforated"
-            .to_owned()
+        format!(
+            "that the target holds is not a result: a column without a plug or a bulge overestimates the resistance of a plate with \
+             a free face; {remedy}"
+        )
     })
 }

@@ -2,7 +2,12 @@
 
 use serde::Serialize;
 
-use crate::{scenario::Scenario, units::significant};
+use crate::{
+    material::tensile_strength,
+    regime::STRENGTH_STRAIN,
+    scenario::{Scenario, TargetBody},
+    units::significant,
+};
 
 /// A range of a ratio or of the speed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -36,6 +41,16 @@ impl Range {
         max: f64::INFINITY,
         outside: Outside::Warning,
         because: "the resistance is that of an infinite body: free surfaces within a few diameters weaken it",
+    };
+
+    /// Projectiles that models of a rigid one take. The softest with published limits, fragment simulators on ultra-high-hardness
+    /// armour, have 0.52.
+    pub const RIGID_AGAINST_PLATE: Self = Self {
+        measure: Measure::StrengthToPlate,
+        min: 0.5,
+        max: f64::INFINITY,
+        outside: Outside::NotApplicable,
+        because: "a softer projectile flattens against the plate, and the model takes it as rigid",
     };
 
     /// What is to be said of a case outside; `None` for a case inside, or without such a measure.
@@ -88,6 +103,8 @@ pub enum Measure {
     FlatRodLengthToDiameter,
     /// Thickness of the target over the projectile's diameter.
     ThicknessToDiameter,
+    /// Flow stress of the projectile over the tensile strength of the one plate.
+    StrengthToPlate,
     /// Impact velocity [m/s].
     ImpactSpeed,
     /// Angle between the path and the normal of the struck face [deg].
@@ -105,6 +122,17 @@ impl Measure {
                 Some(length / rod.diameter)
             }
             Self::ThicknessToDiameter => Some(scenario.target_thickness()? / rod.diameter),
+            Self::StrengthToPlate => {
+                let TargetBody::Layers { layers, .. } = &scenario.target else {
+                    return None;
+                };
+                let [plate] = layers.as_slice() else {
+                    return None;
+                };
+                Some(
+                    rod.material.flow_stress(STRENGTH_STRAIN)? / tensile_strength(&plate.material)?,
+                )
+            }
             Self::ImpactSpeed => Some(scenario.impact_velocity),
             Self::Obliquity => Some(scenario.obliquity.to_degrees()),
         }
@@ -116,6 +144,9 @@ impl Measure {
             Self::LengthToDiameter => "length to diameter",
             Self::FlatRodLengthToDiameter => "length to diameter, as a flat-ended rod of its mass,",
             Self::ThicknessToDiameter => "thickness to projectile diameter",
+            Self::StrengthToPlate => {
+                "flow stress of the projectile to tensile strength of the plate"
+            }
             Self::ImpactSpeed => "impact velocity",
             Self::Obliquity => "angle to the normal",
         }

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::{Case, Document};
 use crate::{
     check::Diagnostic,
-    csv_table::{CsvRow, CsvTable, field_span, header},
+    csv_table::{CsvRow, CsvTable, SEPARATORS_HELP, header},
     document::read_text,
     error::{Error, InputError},
     history::{ELEMENT_COLUMNS, Read, SAMPLE_COLUMNS},
@@ -183,7 +183,7 @@ fn read(
         }
         if points.len() < 2 {
             let at = table.header.iter().position(|name| *name == column.column);
-            let span = field_span(table.text, 0, at.unwrap_or(0));
+            let span = table.field_span(0, at.unwrap_or(0));
             let message = format!("`{}` has fewer than two values", column.column);
             let help = "a curve has two values or more: one row for each time";
             return Err(table.error(span, &column.column, message, help).into());
@@ -240,7 +240,7 @@ fn columns(
     let mut times = None;
     let mut found: Vec<Found> = Vec::new();
     for (i, name) in table.header.iter().enumerate() {
-        let span = field_span(table.text, 0, i);
+        let span = table.field_span(0, i);
         let refuse = |message: String, help: String| Err(table.error(span, name, message, help));
         let Some((kind, of_name)) = matching(name, &own) else {
             if let Some((kind, _)) = matching(name, &others) {
@@ -258,7 +258,7 @@ fn columns(
             ColumnName::UnknownUnit(unit) => {
                 let message = format!("`{}` is no unit of `{}`", shorten(&unit), kind.0);
                 let separator = match table.header.len() {
-                    1 => "; columns are separated by commas",
+                    1 => SEPARATORS_HELP,
                     _ => "",
                 };
                 let units = column_symbols(kind.1);
@@ -294,7 +294,7 @@ fn columns(
     let all: Vec<&str> = all.iter().map(String::as_str).collect();
     let unread = header::check(table, &all, &[])?;
     let Some(time) = times else {
-        let help = "name it with its unit, such as `time_us`; columns are separated by commas";
+        let help = "name it with its unit, such as `time_us`";
         return Err(table.error(0..0, "", "the table has no column of times", help));
     };
     if found.is_empty() {

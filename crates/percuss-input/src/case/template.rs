@@ -238,9 +238,16 @@ fn other_law(table: &Table, key: &str) -> Option<Diagnostic> {
         .get(id)?
         .get("strength")?
         .as_table()?;
-    let own = strength.keys().next().filter(|own| *own != law)?;
+    let (own, constants) = strength.iter().next().filter(|(own, _)| *own != law)?;
+    let constants = constants.as_table().into_iter().flatten();
+    let constants =
+        constants.filter(|(_, value)| value.is_str() || value.is_integer() || value.is_float());
+    let constants: Vec<&str> = constants.map(|(name, _)| name.as_str()).collect();
     let message = format!("`{id}` has the strength law `{own}`, not `{law}`");
-    let help = format!("name a constant of that law, materials.{id}.strength.{own}.NAME");
+    let help = format!(
+        "name a constant of that law, materials.{id}.strength.{own}.NAME; its record has {}",
+        constants.join(", ")
+    );
     Some(Diagnostic::at(key, message, help))
 }
 

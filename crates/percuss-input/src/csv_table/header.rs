@@ -1,6 +1,6 @@
 //! The first line of a table.
 
-use super::{CsvTable, field_span};
+use super::{CsvTable, SEPARATORS_HELP};
 use crate::{
     document::Renamed,
     error::{InputError, nearest},
@@ -21,13 +21,13 @@ pub fn check(
         .filter(|column| !table.header.iter().any(|name| name == column))
         .collect();
     let separator = match table.header.len() {
-        1 => "; columns are separated by commas",
+        1 => SEPARATORS_HELP,
         _ => "",
     };
     let mut unread = Vec::new();
     // A misspelt name tells more than the name that is missing for it.
     for (i, name) in table.header.iter().enumerate() {
-        let span = field_span(table.text, 0, i);
+        let span = table.field_span(0, i);
         if table.header[..i].contains(name) {
             let message = format!("two columns are named `{}`", shorten(name));
             return Err(table.error(span, name, message, "remove one"));
@@ -56,7 +56,17 @@ pub fn check(
         }
         if let Some(near) = near {
             let message = format!("no column is named `{}`", shorten(name));
-            let help = format!("did you mean `{near}`? rename a column of another kind{separator}");
+            let rest: Vec<&str> = missing
+                .iter()
+                .copied()
+                .filter(|column| *column != near)
+                .collect();
+            let rest = match rest.as_slice() {
+                [] => String::new(),
+                rest => format!("; the first line also lacks {}", in_ticks(rest)),
+            };
+            let help =
+                format!("did you mean `{near}`? rename a column of another kind{separator}{rest}");
             return Err(table.error(span, name, message, help));
         }
         unread.push(shorten(name));

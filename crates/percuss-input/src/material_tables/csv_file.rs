@@ -6,7 +6,7 @@ use super::{cells, keys};
 use crate::{
     case::materials_toml,
     check::Check,
-    csv_table::{CsvRow, CsvTable, field_span, header},
+    csv_table::{CsvRow, CsvTable, header},
     document::Document,
     error::{Error, InputError},
     lsdyna::Imported,
@@ -107,7 +107,7 @@ fn columns(table: &CsvTable<'_>) -> Result<(Vec<KeyColumn>, Vec<String>), Box<In
             continue;
         }
         if columns.iter().any(|column| column.key == key) {
-            let span = field_span(table.text, 0, i);
+            let span = table.field_span(0, i);
             let message = format!("two columns are of `{key}`");
             return Err(table.error(span, name, message, "remove one"));
         }

@@ -55,8 +55,9 @@ fn residual_with_plug(case: &PlateImpact<'_>, ballistic_limit: f64) -> f64 {
     case.mass / (case.mass + case.plug_mass()) * excess.sqrt()
 }
 
-/// Ranges of thickness of the models of plugs.
+/// Ranges of the models of plugs.
 pub(super) const PLUG_RANGES: &[Range] = &[
+    Range::RIGID_AGAINST_PLATE,
     Range {
         measure: Measure::ThicknessToDiameter,
         min: 0.0,

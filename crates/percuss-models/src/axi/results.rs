@@ -2,7 +2,7 @@
 
 use super::{crater, run::Axisymmetric, setup::extent, solver::Grid};
 use crate::{
-    outcome::{Detail, RunResult},
+    outcome::{Detail, RunResult, Termination},
     scenario::TargetBody,
     shapes::Shapes,
     solver::{Particle, interface::Extremes, monitor::RunMonitor},
@@ -30,8 +30,19 @@ pub(super) fn complete(run: &Axisymmetric<'_>, result: &mut RunResult, monitor: 
     } else {
         0.0
     });
-    result.projectile_final_length = crater::ends(rod, &solver.mesh).map(|(tail, tip)| tip - tail);
-    result.projectile_final_diameter = (sums.mass > 0.0).then(|| 2.0 * crater::largest_radius(rod));
+    // The outline of particles lies within a part of a cell of the surface: what did not move keeps its size.
+    let (length, diameter) = match result.termination {
+        Termination::NothingMoves => (
+            Some(scenario.projectile.length),
+            Some(scenario.projectile.diameter),
+        ),
+        _ => (
+            crater::ends(rod, &solver.mesh).map(|(tail, tip)| tip - tail),
+            (sums.mass > 0.0).then(|| 2.0 * crater::largest_radius(rod)),
+        ),
+    };
+    result.projectile_final_length = length;
+    result.projectile_final_diameter = diameter;
     result.projectile_final_mass = Some(sums.mass);
     let shapes = Shapes {
         crater: if solid {

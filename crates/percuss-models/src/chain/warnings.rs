@@ -339,8 +339,12 @@ fn warn_of_material(
     if flowed && heated && material.strength.law().depends_on_temperature() {
         let johnson_cook = matches!(&material.strength, Strength::JohnsonCook(_));
         if material.specific_heat.is_none() {
+            let missing = match johnson_cook && material.melting_temperature.is_none() {
+                true => "specific heat and no melting temperature",
+                false => "specific heat",
+            };
             warnings.push(format!(
-                "the {what}'s material has no specific heat: it does not warm up, so its strength is not reduced"
+                "the {what}'s material has no {missing}: it does not warm up, so its strength is not reduced"
             ));
         } else if johnson_cook && material.melting_temperature.is_none() {
             warnings.push(format!(

@@ -95,7 +95,7 @@ pub fn with_seed(scenario: &Scenario, seed: u64) -> Scenario {
     other
 }
 
-/// What the model takes, with projectiles of a behaviour and remarks.
+/// Validity domain of a formulation, from the projectile regimes and targets that it takes.
 const fn domain(
     projectile: &'static [ProjectileRegime],
     targets: &'static [TargetKind],

@@ -47,7 +47,7 @@ def run(
         The case, or its file.
     model : str, optional
         Name of the model; :func:`percuss.models` lists them. When not given, it is ``chain``; where that does not apply, it is the model
-        that :func:`compare` recommends, and ``result.model_choice`` says why.
+        that :func:`compare` recommends, or ``axi`` where no quick model applies, and ``result.model_choice`` says why.
     reference : str, optional
         Meshes of the axisymmetric answer: ``"standard"``, 3, 4 and 6 cells along the projectile's radius, or ``"fine"``, 6, 8 and 12.
         Then ``result.axisymmetric`` has the ``value`` in the limit of fine meshes of the main ``quantity``, its ``uncertainty`` by the
@@ -352,6 +352,8 @@ def validate(
     data: Path | Sequence[Path] | None = None,
     materials: Path | Sequence[Path] | None = None,
     out: Path | None = None,
+    figures: str | Sequence[str] | None = None,
+    figure_width: str | None = None,
     progress: Progress | bool | None = None,
 ) -> Validation:
     """Compares all applicable models with published tests.
@@ -368,6 +370,10 @@ def validate(
         Files of materials for the tests, in addition to the library.
     out : path, optional
         Folder for the report with its figures, and the numbers, as ``percuss validate --out`` writes them; made if it does not exist.
+    figures : str or sequence of str, optional
+        Formats of the figures in ``out`` beside the PNG of the report: ``svg``, ``png`` and ``pdf``, or ``"none"``; SVG and PNG when not given.
+    figure_width : str, optional
+        Width of the figures in print, 60 mm to 182 mm; ``"88 mm"`` fits a column of a journal. 182 mm when not given.
     progress : callable or bool, optional
         As in :func:`run`.
 
@@ -384,6 +390,8 @@ def validate(
         data=several(data),
         materials=several(materials),
         out=out,
+        figures=formats(figures),
+        figure_width=figure_width,
         progress=progress,
     )
     return Validation(found)

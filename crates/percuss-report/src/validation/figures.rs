@@ -11,6 +11,8 @@ use crate::{Axis, Figure, LineChart, Mark, Series, Style, palette};
 
 /// Smallest number of points of a figure.
 const FEWEST: usize = 3;
+/// Largest number of points that are drawn at full size.
+const FEW: usize = 60;
 /// Half width of the band that is drawn around perfect agreement.
 const BAND: f64 = 0.1;
 
@@ -99,11 +101,15 @@ fn series<'a>(
     symbols: &Symbols,
     point: impl Fn(&Prediction) -> (f64, f64),
 ) -> Vec<Series> {
+    let style = match groups.values().map(Vec::len).sum::<usize>() <= FEW {
+        true => Style::Markers,
+        false => Style::Cloud,
+    };
     let series = groups.iter().map(|(name, group)| {
         let points = group.iter().map(|prediction| point(prediction));
         let index = symbols.iter().position(|symbol| symbol == name);
         let series = Series::new(name.trim(), points)
-            .style(Style::Cloud)
+            .style(style)
             .symbol(index.unwrap_or(0));
         match name.as_str() {
             FLAGGED => series.color(palette::NO_VALUE),

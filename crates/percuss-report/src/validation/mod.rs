@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 use percuss::validate::Validation;
 
 use crate::{
-    ReportError,
+    FigureFormat, ReportError,
+    figure::{IN_PAGES, write_figures},
     page::{self, html},
 };
 
@@ -27,6 +28,7 @@ pub struct Origin {
 ///
 /// - `validation.html`: the whole report in one file, with every test and its citation;
 /// - `validation.md` with one PNG per figure: the same without the single tests;
+/// - the figures in other formats;
 /// - `predictions.csv`, `predictions.parquet`: one row per test, material record and model, with citation;
 /// - `statistics.csv`, `statistics.parquet`: one row per group.
 ///
@@ -36,12 +38,18 @@ pub fn write(
     folder: &Path,
     validation: &Validation,
     origin: &Origin,
+    formats: &[FigureFormat],
 ) -> Result<Vec<PathBuf>, ReportError> {
     let figures = figures::draw(validation);
     let page = content::page(validation, origin, &figures);
     let figures_of_page = figures.iter().map(|figure| &figure.drawing);
     let files = numbers::files(validation)?;
-    page::write(folder, "validation", &page, figures_of_page, files)
+    let mut written = page::write(folder, "validation", &page, figures_of_page, files)?;
+    let mut others = formats.to_vec();
+    others.retain(|format| format.suffix() != IN_PAGES);
+    let drawings: Vec<_> = figures.into_iter().map(|figure| figure.drawing).collect();
+    written.extend(write_figures(folder, &drawings, &others, &|_, _| {})?);
+    Ok(written)
 }
 
 /// The report as one self-contained HTML page.

@@ -211,7 +211,7 @@ function options(chart: Chart, width: number, current: () => Chart, zoom: Zoom):
   return {
     width,
     height: HEIGHT,
-    legend: { live: true, show: chart.kind !== "map" },
+    legend: { live: true, show: chart.kind !== "map", markers: { dash: sampleOf } },
     cursor: {
       drag: { x: true, y: true, uni: NARROW, setScale: false },
       y: chart.kind === "map",
@@ -238,6 +238,13 @@ function select(plot: uPlot, zoom: Zoom): void {
   const ends = (from: number, to: number, side: Side): Range => [plot.posToVal(from, side), plot.posToVal(to, side)];
   plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
   zoom.show(ends(left, left + width, "x"), ends(top + height, top, "y"));
+}
+
+// Kind of line of a series in the legend: curves of one colour differ by it.
+function sampleOf(plot: uPlot, series: number): "solid" | "dotted" | "dashed" {
+  const dashes = plot.series[series]?.dash;
+  if (!dashes?.length) return "solid";
+  return (dashes[0] ?? 0) <= 2 ? "dotted" : "dashed";
 }
 
 function seriesOf(chart: Chart, current: () => Chart): uPlot.Series[] {

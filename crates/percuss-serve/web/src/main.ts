@@ -274,8 +274,8 @@ function build(): void {
       text.value = example;
       get<HTMLDetailsElement>("text-box").open = true;
       text.scrollTop = text.scrollHeight;
-      text.focus({ preventScroll: true });
       ask();
+      return new Promise<void>((done) => waiting.push(done));
     },
     example: (wanted: string) => {
       const known = start.cases.find((one) => one.name === wanted);

@@ -10,7 +10,8 @@ import type { Chart, Problem, Study } from "./types";
 export interface Page {
   request(): { name: string; case: string; model: string };
   hasUncertainty(): boolean;
-  insert(text: string): void;
+  // Another text of the case; done when its answer is shown.
+  insert(text: string): Promise<void>;
   // Loads a ready case; done when its answer is shown.
   example(name: string): Promise<void>;
 }
@@ -25,8 +26,8 @@ export interface Kind {
   body(): object;
   // The view of a chart takes part in what happens to all charts.
   show(done: unknown, view: (chart: Chart, files: Study["files"]) => ChartView): HTMLElement[];
-  // What else to say to a refusal.
-  refused?(): HTMLElement | null;
+  // Completes the case before the study; what it has added, in words.
+  prepare?(): Promise<string | null>;
   // A ready case for which the study has a result.
   example?: Example;
 }
@@ -72,18 +73,20 @@ export function panel(kind: Kind, views: Views, page: Page): HTMLElement {
     words.textContent = "";
     result.replaceChildren();
     try {
+      const added = await kind.prepare?.();
+      const note = added ? [make("p", { class: "note", role: "status" }, added)] : [];
       const done = await follow<Study>(kind.path, kind.body(), own.signal, (fraction, said) => {
         bar.value = fraction;
         words.textContent = said;
       });
-      result.replaceChildren(...kind.show(done, view), ...(kind.example?.suits(done) ? [offer(kind.example)] : []), ...outcome(done));
+      result.replaceChildren(...note, ...kind.show(done, view), ...(kind.example?.suits(done) ? [offer(kind.example)] : []), ...outcome(done));
     } catch (error) {
       if (own.signal.aborted) {
         result.replaceChildren(make("p", { class: "note" }, "cancelled"));
         return;
       }
       const problem = error instanceof Refused ? error.problem : unexpected(error);
-      const more = kind.example?.refusal.test(problem.message) ? offer(kind.example) : kind.refused?.();
+      const more = kind.example?.refusal.test(problem.message) ? offer(kind.example) : null;
       result.replaceChildren(make("div", { class: "problem", role: "alert" }, ...explained(problem)), more ?? "");
     } finally {
       running.hidden = true;

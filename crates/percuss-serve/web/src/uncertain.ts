@@ -1,7 +1,7 @@
 // Results of an uncertainty analysis, and an example of its inputs.
 
 import { post } from "./api";
-import { button, make, significant, table } from "./dom";
+import { make, significant, table } from "./dom";
 import { options, type Kind, type Page } from "./panel";
 import type { Spread } from "./types";
 
@@ -24,7 +24,7 @@ export function uncertainty(page: Page): Kind {
       uncertainty: { samples: Number(samples.value), seed: Number(seed.value), indices: indices.checked },
     }),
     show: (done) => spread(done as Spread),
-    refused: () => (page.hasUncertainty() ? null : offer(() => page.request(), (text) => page.insert(text))),
+    prepare: () => prepare(page),
   };
 }
 
@@ -84,21 +84,10 @@ function influence(done: Spread, place: number): HTMLElement {
   return make("details", {}, make("summary", {}, `Sensitivity of the ${words} as a table`), table(head, lines), why);
 }
 
-// Offers an example to a case without uncertain parameters.
-function offer(asked: () => object, insert: (text: string) => void): HTMLElement {
-  const said = make("p", { class: "note", role: "status" });
-  const add = button("Insert an example", () => {
-    post<{ case: string }>("/api/uncertainty-example", asked()).then(
-      (done) => {
-        insert(done.case);
-        add.remove();
-        // The error message is obsolete now.
-        offered.parentElement?.replaceChildren(offered);
-        said.textContent = "The example is at the end of the case file. Replace the assumed distributions by your own, then press Uncertainty.";
-      },
-      (error: unknown) => (said.textContent = error instanceof Error ? error.message : String(error)),
-    );
-  });
-  const offered = make("div", {}, add, said);
-  return offered;
+// Gives a case without uncertain parameters an example of them.
+async function prepare(page: Page): Promise<string | null> {
+  if (page.hasUncertainty()) return null;
+  const done = await post<{ case: string }>("/api/uncertainty-example", page.request());
+  await page.insert(done.case);
+  return "The case had no uncertain parameters: an example is now at the end of its text. Replace the assumed distributions by your own, then press Uncertainty. Undo removes it.";
 }

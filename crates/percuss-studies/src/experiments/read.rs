@@ -107,7 +107,7 @@ fn test(row: &CsvRow<'_>, library: &Library) -> Result<Experiment, Box<InputErro
                 row.record.len(),
                 row.table.header.len()
             ),
-            "a field with a comma in it stands in double quotes",
+            "a field with a separator of columns in it stands in double quotes",
         ));
     }
     let kind = row

@@ -347,7 +347,7 @@ fn slips_in_the_first_line_are_found() {
     let found = refused(&format!("{HEADER},id\n"));
     assert!(found.3.contains("two columns are named `id`"), "{found:?}");
     assert!(
-        refused(&HEADER.replace(',', ";"))
+        refused(&HEADER.replace(',', ":"))
             .4
             .contains("separated by commas")
     );

@@ -4,7 +4,10 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
-use crate::inputs::{Correlation, Design, Parameter};
+use crate::{
+    inputs::{Correlation, Design, Parameter},
+    model::DEFAULT_MODEL,
+};
 
 /// A sweep as its TOML file holds it.
 #[derive(Debug, Clone, Deserialize)]
@@ -15,6 +18,8 @@ pub(super) struct SweepFile {
     pub(super) title: String,
     /// The case that is varied, relative to the sweep file.
     pub(super) base: PathBuf,
+    /// [`DEFAULT_MODEL`] by default, as in the other studies.
+    #[serde(default = "default_model")]
     pub(super) model: String,
     pub(super) design: Design,
     /// Number of runs; a grid has as many as its lists make.
@@ -25,4 +30,8 @@ pub(super) struct SweepFile {
     #[serde(default)]
     pub(super) parameter: Vec<Parameter>,
     pub(super) correlation: Option<Correlation>,
+}
+
+fn default_model() -> String {
+    DEFAULT_MODEL.to_owned()
 }

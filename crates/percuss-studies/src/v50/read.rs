@@ -9,11 +9,19 @@ use crate::{
     document::{Renamed, read_text},
     error::{Error, InputError},
     experiments::TestFile,
-    units::{ColumnName, ColumnUnit, ResultUnit, Velocity, shorten},
+    units::{ColumnName, ColumnUnit, ResultUnit, Velocity, column_symbols, shorten},
 };
 
 const VELOCITY: &str = "impact_velocity_m_s";
 const PERFORATED: &str = "perforated";
+/// Other names of the column of results.
+const RESULT_COLUMNS: [&str; 5] = [
+    PERFORATED,
+    "result",
+    "outcome",
+    "penetration",
+    "perforation",
+];
 /// Names of the column of velocities without its unit.
 const QUANTITIES: [&str; 2] = ["impact_velocity", "velocity"];
 /// How a result of a test is written, in any case of letters.
@@ -53,16 +61,17 @@ pub fn read_str(name: &str, text: &str) -> Result<Vec<Test>, Error> {
 
 fn file(name: &str, text: &str) -> Result<TestFile<Test>, Error> {
     let (table, records) = CsvTable::read(name, text)?;
-    let (velocity, unit) = velocity(&table);
-    let known = [velocity.as_str(), COLUMNS[1], COLUMNS[2]];
-    let unread_columns = header::check(&table, &known, &[&velocity, PERFORATED])?;
+    let (velocity, unit) = velocity(&table)?;
+    let result = result_column(&table);
+    let known = [velocity.as_str(), &result, COLUMNS[2]];
+    let unread_columns = header::check(&table, &known, &[&velocity, &result])?;
     let mut tests = Vec::new();
     for record in records {
         let row = CsvRow {
             table: &table,
             record,
         };
-        tests.push(test(&row, &velocity, unit)?);
+        tests.push(test(&row, &velocity, unit, &result)?);
     }
     if tests.is_empty() {
         let help = "write one row per test below the header, such as 184.3,yes";
@@ -76,24 +85,41 @@ fn file(name: &str, text: &str) -> Result<TestFile<Test>, Error> {
 }
 
 /// Name and unit of the column of velocities: the first that is one, in whatever unit. The usual name where there is none.
-fn velocity(table: &CsvTable<'_>) -> (String, Option<ColumnUnit>) {
-    let of_name = |name: &String| {
+fn velocity(table: &CsvTable<'_>) -> Result<(String, Option<ColumnUnit>), Box<InputError>> {
+    for (i, name) in table.header.iter().enumerate() {
         // A former name is refused with the new one.
         if Renamed::of(name).is_some() {
-            return None;
+            continue;
         }
-        QUANTITIES.iter().find_map(|quantity| {
+        for quantity in QUANTITIES {
             match ColumnName::of(name, quantity, ResultUnit::M_S) {
-                ColumnName::InUnit(unit) => Some((name.clone(), Some(unit))),
-                _ => None,
+                ColumnName::InUnit(unit) => return Ok((name.clone(), Some(unit))),
+                ColumnName::WithoutUnit => {
+                    let message = format!("the unit of `{}` is missing", shorten(name));
+                    let units = column_symbols(ResultUnit::M_S);
+                    let help = format!("write `{VELOCITY}` or `{quantity} (m/s)`; units: {units}");
+                    return Err(table.error(table.field_span(0, i), name, message, help));
+                }
+                _ => {}
             }
-        })
-    };
-    let mut found = table.header.iter().filter_map(of_name);
-    found.next().unwrap_or_else(|| (VELOCITY.to_owned(), None))
+        }
+    }
+    Ok((VELOCITY.to_owned(), None))
 }
 
-fn test(row: &CsvRow<'_>, column: &str, unit: Option<ColumnUnit>) -> Result<Test, Box<InputError>> {
+/// Name of the column of results: the first that is one, in any case of letters. The usual name where there is none.
+fn result_column(table: &CsvTable<'_>) -> String {
+    let mut names = table.header.iter();
+    let found = names.find(|name| RESULT_COLUMNS.contains(&name.to_lowercase().as_str()));
+    found.map_or_else(|| PERFORATED.to_owned(), String::clone)
+}
+
+fn test(
+    row: &CsvRow<'_>,
+    column: &str,
+    unit: Option<ColumnUnit>,
+    result_column: &str,
+) -> Result<Test, Box<InputError>> {
     if row.record.len() != row.table.header.len() {
         return Err(row.error(
             column,
@@ -102,7 +128,7 @@ fn test(row: &CsvRow<'_>, column: &str, unit: Option<ColumnUnit>) -> Result<Test
                 row.record.len(),
                 row.table.header.len()
             ),
-            "a field with a comma in it stands in double quotes",
+            "a field with a separator of columns in it stands in double quotes",
         ));
     }
     let number = row.required_number(column)?;
@@ -117,12 +143,12 @@ fn test(row: &CsvRow<'_>, column: &str, unit: Option<ColumnUnit>) -> Result<Test
             ),
         ));
     }
-    let result = row.required(PERFORATED)?.to_lowercase();
+    let result = row.required(result_column)?.to_lowercase();
     let known = RESULTS.iter().find(|(word, _)| *word == result);
     let Some((_, perforated)) = known else {
-        let message = format!("unknown value `{}`", shorten(row.text(PERFORATED)));
+        let message = format!("unknown value `{}`", shorten(row.text(result_column)));
         let help = "allowed: yes or no, complete or partial, CP or PP, true or false, 1 or 0";
-        return Err(row.error(PERFORATED, message, help));
+        return Err(row.error(result_column, message, help));
     };
     Ok(Test {
         impact_velocity: velocity,

@@ -296,13 +296,13 @@ fn a_file_is_read_and_what_is_wrong_in_it_has_its_place() {
             "velocity,perforated\n184,no\n",
             1,
             "velocity",
-            "did you mean `impact_velocity_m_s`?",
+            "write `impact_velocity_m_s` or `velocity (m/s)`",
         ),
         (
-            "impact_velocity_m_s;perforated\n184;no\n",
+            "impact_velocity_m_s:perforated\n184:no\n",
             1,
-            "impact_velocity_m_s;perforated",
-            "separated by commas",
+            "impact_velocity_m_s:perforated",
+            "separated by commas, semicolons or tabs",
         ),
         ("impact_velocity_m_s\n184\n", 1, "", "lacks `perforated`"),
         (
@@ -323,4 +323,30 @@ fn a_file_is_read_and_what_is_wrong_in_it_has_its_place() {
         assert_eq!((found.0, found.1.as_str()), (line, key), "{text}");
         assert!(found.2.contains(words), "{words:?} is not in {:?}", found.2);
     }
+}
+
+/// A spreadsheet where a comma stands before decimals separates columns by semicolons.
+#[test]
+fn tables_of_spreadsheets_are_read() {
+    let plain = "velocity (m/s),perforated\n184.3,no\n188.5,yes\n";
+    let expected = read_str("tests.csv", plain).unwrap();
+    for text in [
+        "velocity (m/s);Result\r\n184,3;PP\r\n188,5;CP\r\n",
+        "velocity (km/h);penetration\n663,48;partial\n678,6;complete\n",
+        "impact_velocity_m_s\toutcome\n184.3\t0\n188.5\t1\n",
+    ] {
+        let read = read_str("tests.csv", text).unwrap_or_else(|error| panic!("{error}"));
+        for (read, expected) in read.iter().zip(&expected) {
+            assert_eq!(read.perforated, expected.perforated, "{text}");
+            assert!(
+                (read.impact_velocity - expected.impact_velocity).abs() < 1e-9,
+                "{text}"
+            );
+        }
+    }
+    let error = read_str("tests.csv", "velocity (m/s);result\n1.184,3;no\n").unwrap_err();
+    assert!(
+        error.to_string().contains("`1.184,3` is no number"),
+        "{error}"
+    );
 }

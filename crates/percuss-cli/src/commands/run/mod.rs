@@ -46,8 +46,9 @@ Run a case and print its results: outcome, depth of penetration, final
 dimensions of the projectile, distribution of the energy, errors of the energy
 and momentum balances, and warnings about the assumptions. Without --model the
 model is `chain`; where that does not apply, it is the model that
-`percuss compare` recommends, and the first lines name it. The main result of
-every other applicable model is listed too, except models that take minutes.
+`percuss compare` recommends, or `axi` where no quick model applies, and the
+first lines name it. The main result of every other applicable model is listed
+too, except models that take minutes.
 
 Then the axisymmetric model `axi` runs on 3, 4 and 6 cells per radius, and its
 depth of penetration (on a rigid wall the final length, after perforation the

@@ -40,8 +40,9 @@ use crate::{
 #[derive(Debug, Clone, Copy)]
 pub struct PowerBalance;
 
-/// Ranges of thickness for which the fields are made.
+/// Ranges of strength and of thickness for which the fields are made.
 const RANGES: &[Range] = &[
+    Range::RIGID_AGAINST_PLATE,
     Range {
         measure: Measure::ThicknessToDiameter,
         min: 0.05,

@@ -15,6 +15,27 @@ use crate::{Axis, names};
 
 /// Largest number of names along an axis.
 const NAMES: usize = 12;
+/// Relative difference of steps that count as even.
+const EVEN: f64 = 1e-6;
+/// Decades from which on the values of a list stand on a logarithmic axis.
+const INPUT_DECADES: f64 = 2.0;
+/// Decades from which on results do.
+const RESULT_DECADES: f64 = 3.0;
+
+/// Whether values are positive and span so many decades.
+fn spans(values: &[f64], decades: f64) -> bool {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(0.0, f64::max);
+    low > 0.0 && high.is_finite() && (high / low).log10() >= decades
+}
+
+/// Whether the steps between values are equal.
+pub(super) fn is_even(values: impl Iterator<Item = f64> + Clone) -> bool {
+    let mut steps = values.clone().skip(1).zip(values).map(|(b, a)| b - a);
+    steps
+        .next()
+        .is_some_and(|first| steps.all(|step| (step - first).abs() <= EVEN * first.abs()))
+}
 
 /// Rows of a sweep with one result.
 pub(super) struct Data<'a> {
@@ -144,6 +165,14 @@ impl<'a> Data<'a> {
                 .names(varied.words.iter().cloned())
                 .range(0.5, varied.words.len() as f64 + 0.5),
             (true, "log") => axis.log(),
+            (true, "values") => {
+                let values = self.values(parameter);
+                // Who asks for even steps sees even steps.
+                match spans(&values, INPUT_DECADES) && !is_even(values.iter().copied()) {
+                    true => axis.log(),
+                    false => axis,
+                }
+            }
             _ => axis,
         }
     }
@@ -176,7 +205,12 @@ impl<'a> Data<'a> {
     }
 
     pub(super) fn value_axis(&self) -> Axis {
-        Axis::new(quantity::label(self.quantity))
+        let axis = Axis::new(quantity::label(self.quantity));
+        let all = self.all();
+        match all.failed + all.without == 0 && spans(&[all.low, all.high], RESULT_DECADES) {
+            true => axis.log(),
+            false => axis,
+        }
     }
 
     pub(super) fn title(&self) -> String {

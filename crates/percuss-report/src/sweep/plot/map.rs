@@ -2,7 +2,7 @@
 
 use super::{
     PlotStyle,
-    data::{Data, names},
+    data::{Data, is_even, names},
     label, quantity,
 };
 use crate::{Axis, HeatMap};
@@ -11,8 +11,6 @@ use crate::{Axis, HeatMap};
 const MOST_CELLS: f64 = 60.0;
 /// Mean number of runs per cell of such a map.
 const RUNS: f64 = 8.0;
-/// Relative difference of steps that count as even.
-const EVEN: f64 = 1e-6;
 
 /// Result versus parameters `x` and `y`.
 pub(super) fn chart(data: &Data<'_>, x: usize, y: usize) -> HeatMap {
@@ -122,11 +120,4 @@ impl Side {
         };
         place.min(self.cells - 1)
     }
-}
-
-fn is_even(values: impl Iterator<Item = f64> + Clone) -> bool {
-    let mut steps = values.clone().skip(1).zip(values).map(|(b, a)| b - a);
-    steps
-        .next()
-        .is_some_and(|first| steps.all(|step| (step - first).abs() <= EVEN * first.abs()))
 }
