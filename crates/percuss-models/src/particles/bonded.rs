@@ -79,6 +79,10 @@ pub(super) trait Bonded<const D: usize>: Debug + Clone + Sync {
     fn frequency(&mut self, control: &mut Control<'_>) -> Result<f64, Error>;
     /// How bonds fail, if they do.
     fn softening(&self) -> Option<&Softening>;
+    /// Whether contacts with a rigid body begin and end within steps. A lattice that holds is that of other programs, whose contacts do not.
+    fn begins_within_steps(&self) -> bool {
+        self.softening().is_some()
+    }
     /// Contact of its pieces.
     fn contact_law(&self, scenario: &Scenario) -> ContactLaw;
     /// Area of a strip or volume of a body of revolution, distance of its centre behind the tip [m], and second moment about it.

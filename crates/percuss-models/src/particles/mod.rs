@@ -13,6 +13,7 @@ mod flight;
 mod fracture;
 mod lammps;
 mod lattice;
+mod onset;
 mod packing;
 mod periodic;
 mod pieces;

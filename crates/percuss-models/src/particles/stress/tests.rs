@@ -312,13 +312,13 @@ fn bar(rows: usize, packing: Packing) -> (f64, f64, f64) {
     let start = 0.5 * body.mass() * IMPACT * IMPACT;
     let (mut step, mut time, mut changes) = (first_step, 0.0, 0.0);
     let (mut worst, mut stabilisation) = (0.0_f64, 0.0_f64);
-    let mut met = contact(&body, Rigid::Wall, Pose::straight(0.0));
+    let mut met = contact(&body, Rigid::Wall, Pose::straight(0.0), None);
     let mut number = 0;
     while time < 80e-6 {
         body.advance(step, &met.loads);
         time += step;
         number += 1;
-        met = contact(&body, Rigid::Wall, Pose::straight(0.0));
+        met = contact(&body, Rigid::Wall, Pose::straight(0.0), None);
         let total = |step: f64| {
             let sums = body.sums(step, &met.loads);
             let stored = sums.elastic + sums.plastic + sums.viscous + sums.stabilisation;
