@@ -310,11 +310,17 @@ pub(super) trait Bonded<const D: usize>: Debug + Clone + Sync {
                 .map(|end| root(&mut parent, self.index(end)));
             parent[a.max(b)] = a.min(b);
         }
-        let mut pieces = vec![Piece::NONE; parent.len()];
+        // Numbers of the pieces at their first particles: a piece for each place would take a third of the memory of the body.
+        let mut number = vec![u32::MAX; parent.len()];
+        let mut pieces: Vec<Piece<D>> = Vec::new();
         for at in self.particles() {
-            pieces[root(&mut parent, self.index(at))].add(self, at);
+            let number = &mut number[root(&mut parent, self.index(at))];
+            if *number == u32::MAX {
+                *number = pieces.len() as u32;
+                pieces.push(Piece::NONE);
+            }
+            pieces[*number as usize].add(self, at);
         }
-        pieces.retain(|piece| piece.particles > 0);
         pieces.sort_by(|a, b| b.mass.total_cmp(&a.mass));
         pieces
     }
