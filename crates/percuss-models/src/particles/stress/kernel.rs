@@ -10,10 +10,6 @@ use crate::{
     solid::{Law, MaterialPoints, Rates},
 };
 
-/// Part of its stiffness that the stabilisation keeps in any flow. Without it triangles of a bar on a wall turned over at 150 m/s, at spacings of a
-/// sixteenth and a 32nd of its width; with it they keep a tenth of their size there, and the bar is 0.3 to 0.5 % longer.
-const LEAST_STABILISATION: f64 = 0.02;
-
 /// What the neighbours of eight particles say of their deformation.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Deformation {
@@ -188,8 +184,7 @@ pub(super) fn strain(
     ]
 }
 
-/// Stiffness of the stabilisation after a step: in plastic flow that of an elastic body of the secant shear modulus, if it is less than before and
-/// not less than a part of the first one.
+/// Stiffness of the stabilisation after a step: in plastic flow that of an elastic body of the secant shear modulus, if it is less than before.
 #[inline(always)]
 pub(super) fn softened(
     law: &Law,
@@ -203,7 +198,7 @@ pub(super) fn softened(
         let stress = crate::solver::equivalent(&[deviator[0][l], deviator[1][l], deviator[2][l]]);
         let secant = elastic * (stress / (stress + modulus * strain[l]));
         if strain[l] > strain_before[l] {
-            smaller(now[l], larger(secant, LEAST_STABILISATION * elastic))
+            smaller(now[l], secant)
         } else {
             now[l]
         }
