@@ -107,7 +107,7 @@ impl<B: Bonded<D>, const D: usize> Impact<'_, B, D> {
     }
 
     fn find_contact(&mut self) {
-        let moving = self.body.begins_within_steps().then(|| Moving {
+        let moving = self.body.begins_within_steps().then_some(Moving {
             step: self.time_step,
             flight: match self.rigid {
                 Rigid::Wall => None,
