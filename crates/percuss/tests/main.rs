@@ -10,6 +10,7 @@ mod common;
 mod consistency;
 mod constant_pressure;
 mod constants;
+mod contact_steps;
 mod contact_time;
 mod convergence;
 mod defaults;

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     bonded::{At, Bonded, Load, dot, norm, way},
+    onset::part_of_force,
     restitution::linear_damping,
 };
 
@@ -56,6 +57,8 @@ struct Pair {
     push: f64,
     /// Part of it that damps [N per m].
     drag: f64,
+    /// What the spring lacks in a step within which the contact begins or ends; 0 or negative [N per m].
+    lack: f64,
     /// Elongation of the spring across that line [m].
     slide: f64,
     /// Distance at which the two touch [m].
@@ -129,11 +132,16 @@ impl<const D: usize> Debris<D> {
         for pair in &mut found {
             if let Ok(old) = self.pairs.binary_search_by_key(&pair.ends, |old| old.ends) {
                 let Pair {
-                    push, drag, slide, ..
+                    push,
+                    drag,
+                    lack,
+                    slide,
+                    ..
                 } = self.pairs[old];
                 *pair = Pair {
                     push,
                     drag,
+                    lack,
                     slide,
                     ..*pair
                 };
@@ -224,12 +232,12 @@ impl<const D: usize> Debris<D> {
         for pair in self
             .pairs
             .iter()
-            .filter(|pair| pair.push > 0.0 || pair.drag != 0.0)
+            .filter(|pair| pair.push > 0.0 || pair.drag != 0.0 || pair.lack != 0.0)
         {
             let meeting = pair.meeting(body);
             // The spring of a broken bond pushes by itself.
             let along = if pair.bond.is_some() {
-                pair.drag
+                pair.drag + pair.lack
             } else {
                 pair.push
             };
@@ -273,6 +281,7 @@ impl Pair {
             bond,
             push: 0.0,
             drag: 0.0,
+            lack: 0.0,
             slide: 0.0,
             reach,
             stiffness,
@@ -300,21 +309,23 @@ impl Pair {
         let depth = self.reach - meeting.distance;
         let (drag, slide) = (self.drag, self.slide);
         if depth <= 0.0 && drag == 0.0 && slide == 0.0 {
-            self.push = 0.0;
+            (self.push, self.lack) = (0.0, 0.0);
             return 0.0;
         }
         let [apart, past] = self.speeds(body, &meeting);
         let spring = law.across * self.stiffness;
         let trial = slide + past * step;
         if depth > 0.0 {
-            let elastic = self.stiffness * depth;
+            let whole = self.stiffness * depth;
+            let elastic = part_of_force(depth, step * apart) * whole;
+            self.lack = elastic - whole;
             let damping = 2.0 * law.damping * (self.stiffness * self.mass(body)).sqrt();
             self.push = (elastic - damping * apart).max(0.0);
             self.drag = self.push - elastic;
             let most = law.friction * self.push / spring;
             self.slide = trial.clamp(-most, most);
         } else {
-            (self.push, self.drag, self.slide) = (0.0, 0.0, 0.0);
+            (self.push, self.drag, self.lack, self.slide) = (0.0, 0.0, 0.0, 0.0);
         }
         // Work of the mean forces of both steps, less what the springs keep.
         let damped = -0.5 * (drag + self.drag) * apart * step;

@@ -13,6 +13,7 @@ mod flight;
 mod fracture;
 mod lammps;
 mod lattice;
+mod onset;
 mod packing;
 mod periodic;
 mod pieces;
@@ -58,9 +59,9 @@ const WORK: WorkRate = WorkRate {
     bytes: 300.0,
     rate: 20e6,
 };
-/// Memory of a particle with a stress, and its rate: measured are 450 bytes with the files of a run, and 7 to 15 million particle-steps per second.
+/// Memory of a particle with a stress, and its rate: measured are 350 bytes with the files of a run, and 7 to 15 million particle-steps per second.
 const WORK_OF_STRESS: WorkRate = WorkRate {
-    bytes: 700.0,
+    bytes: 550.0,
     rate: 8e6,
 };
 /// Memory of a particle of an irregular packing over that of the lattice: of a plane body, and of one in space.

@@ -29,6 +29,15 @@ impl RowState {
         [&self.x, &self.z, &self.cosine, &self.sine].map(Vec::clone)
     }
 
+    /// A row with the displacements alone.
+    pub(super) fn displacements(&self) -> Self {
+        Self {
+            x: self.x.clone(),
+            z: self.z.clone(),
+            ..Self::default()
+        }
+    }
+
     /// Takes over what forces on other rows follow from.
     pub(super) fn copy_for_forces(&mut self, other: &Self) {
         self.x.clone_from(&other.x);

@@ -9,7 +9,7 @@ use super::{
     fields,
     flight::{Flight, Inertia, Pose},
     results, setup,
-    shape::{Contact, Rigid, contact},
+    shape::{Contact, Moving, Rigid, contact},
 };
 use crate::{
     Error, Scenario,
@@ -107,7 +107,14 @@ impl<B: Bonded<D>, const D: usize> Impact<'_, B, D> {
     }
 
     fn find_contact(&mut self) {
-        self.contact = contact(&self.body, self.rigid, self.pose());
+        let moving = self.body.begins_within_steps().then_some(Moving {
+            step: self.time_step,
+            flight: match self.rigid {
+                Rigid::Wall => None,
+                Rigid::Projectile(_) => Some(&self.state.flight),
+            },
+        });
+        self.contact = contact(&self.body, self.rigid, self.pose(), moving);
         self.loads.clone_from(&self.contact.loads);
         let of_pieces = self.debris.loads(&self.body, &self.law);
         self.loads.extend(of_pieces);
@@ -121,6 +128,7 @@ impl<B: Bonded<D>, const D: usize> Impact<'_, B, D> {
         if self.time_step > stable && stable > 0.0 {
             let before = Solver::energy(self).total();
             self.time_step = SMALLER_STEP * stable;
+            self.find_contact();
             self.state.step_changes += before - Solver::energy(self).total();
         }
     }

@@ -1,8 +1,9 @@
 //! Shape of a rigid projectile, a strip or a body of revolution, and the contact of particles with it.
 
 use super::{
-    bonded::{Bonded, Load},
-    flight::Pose,
+    bonded::{Bonded, Load, dot},
+    flight::{Flight, Pose},
+    onset::part_of_force,
 };
 use crate::problem::Nose;
 
@@ -228,14 +229,24 @@ fn to_arc(arc: f64, [x, z]: [f64; 2]) -> Depth {
     (arc - distance, direction)
 }
 
-/// Forces between a body and a rigid one in a pose.
+/// How a rigid body moves in a step, within which contacts begin and end.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Moving<'a> {
+    /// Time step [s].
+    pub(super) step: f64,
+    /// None of a body at rest.
+    pub(super) flight: Option<&'a Flight>,
+}
+
+/// Forces between a body and a rigid one in a pose; where they do not move, contacts begin and end with steps.
 pub(super) fn contact<const D: usize>(
     body: &impl Bonded<D>,
     rigid: Rigid,
     pose: Pose,
+    moving: Option<Moving<'_>>,
 ) -> Contact<D> {
     match rigid {
-        Rigid::Wall => add_up(body, 0.0..f64::INFINITY, pose, |position| {
+        Rigid::Wall => add_up(body, 0.0..f64::INFINITY, pose, moving, |position| {
             let depth = position[D - 1];
             let mut direction = [0.0; D];
             direction[D - 1] = -1.0;
@@ -243,7 +254,7 @@ pub(super) fn contact<const D: usize>(
         }),
         Rigid::Projectile(shape) => {
             let reached = f64::NEG_INFINITY..pose.deepest(&shape);
-            add_up(body, reached, pose, |position| {
+            add_up(body, reached, pose, moving, |position| {
                 shape.penetration_from(pose, position)
             })
         }
@@ -255,6 +266,7 @@ fn add_up<const D: usize>(
     body: &impl Bonded<D>,
     depths: std::ops::Range<f64>,
     pose: Pose,
+    moving: Option<Moving<'_>>,
     penetration: impl Fn([f64; D]) -> Option<(f64, [f64; D])>,
 ) -> Contact<D> {
     let stiffness = body.contact_stiffness();
@@ -266,7 +278,16 @@ fn add_up<const D: usize>(
                 continue;
             };
             let pressure = stiffness * depth;
-            let force = direction.map(|part| pressure * part);
+            let part = moving.map_or(1.0, |moving| {
+                let mut past = body.velocity(row, place);
+                if let Some(flight) = moving.flight {
+                    let [across, along] = flight.velocity_at([position[0], position[D - 1]]);
+                    past[0] -= across;
+                    past[D - 1] -= along;
+                }
+                part_of_force(depth, moving.step * dot(past, direction))
+            });
+            let force = direction.map(|along| part * pressure * along);
             let (across, along) = (force[0], force[D - 1]);
             contact.force[0] += across;
             contact.force[1] += along;

@@ -5,6 +5,9 @@ use rayon::prelude::*;
 use super::{body::Body, bonded::Bonded, fields};
 
 /// Largest stretch of a bond, over the spacing, and largest tension of a particle [Pa].
+///
+/// A stretched bond counts by the part of its springs that is left: one that began to soften nearly unstretched, across the tension, has hardly a force
+/// when it has failed at last, at many times the usual stretch.
 pub(super) fn extremes(body: &Body) -> (f64, f64) {
     (0..body.rows.len())
         .into_par_iter()
@@ -21,7 +24,12 @@ fn of_row(body: &Body, row: usize) -> (f64, f64) {
         for kind in 0..3 {
             let holds = body.softening.is_none() || !body.is_broken((row, place, kind));
             if body.rows[row].weights[kind][place] > 0.0 && holds {
-                let stretch = body.bond_of(row, place, kind).elongation.abs();
+                let bond = body.bond_of(row, place, kind);
+                let mut stretch = bond.elongation.abs();
+                if let Some(law) = body.softening.as_ref().filter(|_| bond.elongation > 0.0) {
+                    let damage = body.damage_of((row, place, kind));
+                    stretch *= law.integrity(damage.worst, damage.start);
+                }
                 extremes.0 = extremes.0.max(stretch / body.lattice.spacing);
             }
         }

@@ -8,7 +8,6 @@ use super::{
 };
 use crate::{
     Error,
-    lanes::{LANES, lanes},
     particles::{body::Body, lattice::ROW},
     solid::Law,
     solver::{Control, Particle},
@@ -60,10 +59,7 @@ impl StressBody {
         }
         let shear = law.shear_modulus;
         let stiffness = STABILISATION * shear / ROW;
-        // Where there is no particle, a volume of 1 m³ without motion computes no undefined numbers.
         let mut point = Particle {
-            mass: law.density,
-            volume: 1.0,
             temperature,
             ..Particle::default()
         };
@@ -71,13 +67,7 @@ impl StressBody {
         let (mut rows, mut triangles) = (Vec::new(), Vec::new());
         let places = frame.stride;
         control.set_up(0..frame.rows.len(), places, |row| {
-            let mut made = StressRow::at_rest(places, stiffness, &point);
-            let mass = &frame.rows[row].mass;
-            for (block, points) in made.points.iter_mut().enumerate() {
-                let mass = ring::load(mass, 1 + block * LANES);
-                points.mass = lanes(|l| if mass[l] > 0.0 { mass[l] } else { law.density });
-            }
-            rows.push(made);
+            rows.push(StressRow::at_rest(places, stiffness, &point));
             triangles.push(ring::triangles(&frame, row));
         })?;
         let mut body = Self {

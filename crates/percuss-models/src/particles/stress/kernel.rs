@@ -133,7 +133,7 @@ impl Deformation {
 
 /// Determinants of deformation gradients.
 #[inline(always)]
-fn volumes([xx, xz, zx, zz]: &[Lanes; 4]) -> Lanes {
+pub(super) fn volumes([xx, xz, zx, zz]: &[Lanes; 4]) -> Lanes {
     lanes(|l| (1.0 + xx[l]) * (1.0 + zz[l]) - xz[l] * zx[l])
 }
 

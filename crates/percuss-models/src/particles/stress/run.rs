@@ -70,6 +70,10 @@ impl Bonded<2> for StressBody {
         None
     }
 
+    fn begins_within_steps(&self) -> bool {
+        true
+    }
+
     fn contact_law(&self, scenario: &Scenario) -> ContactLaw {
         self.frame.contact_law(scenario)
     }

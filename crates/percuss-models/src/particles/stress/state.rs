@@ -6,6 +6,7 @@ use super::ring::load;
 use crate::{
     Error,
     lanes::{LANES, Lanes, each_of},
+    material::YieldPoint,
     solid::MaterialPoints,
     solver::{Particle, archive::Archive},
 };
@@ -21,6 +22,66 @@ pub(super) struct Taken {
     pub(super) softened: f64,
 }
 
+/// Material of eight particles, without what follows from their masses and gradients: memory is what a step waits for.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(align(64))]
+pub(super) struct KeptPoints {
+    deviator: [Lanes; 3],
+    pressure: Lanes,
+    viscous_pressure: Lanes,
+    plastic_strain: Lanes,
+    temperature: Lanes,
+    energy: Lanes,
+    yield_point: YieldPoint<Lanes>,
+}
+
+impl KeptPoints {
+    /// What is kept of them.
+    #[inline(always)]
+    pub(super) fn of(points: &MaterialPoints) -> Self {
+        Self {
+            deviator: points.deviator,
+            pressure: points.pressure,
+            viscous_pressure: points.viscous_pressure,
+            plastic_strain: points.plastic_strain,
+            temperature: points.temperature,
+            energy: points.energy,
+            yield_point: points.yield_point,
+        }
+    }
+
+    /// The points of masses and volumes. Nothing fails.
+    #[inline(always)]
+    pub(super) fn whole(&self, mass: &Lanes, volume: &Lanes) -> MaterialPoints {
+        MaterialPoints {
+            deviator: self.deviator,
+            pressure: self.pressure,
+            viscous_pressure: self.viscous_pressure,
+            mass: *mass,
+            volume: *volume,
+            plastic_strain: self.plastic_strain,
+            temperature: self.temperature,
+            energy: self.energy,
+            damage: Lanes::all(0.0),
+            localization: Lanes::all(0.0),
+            yield_point: self.yield_point,
+        }
+    }
+
+    /// The material of a particle, with a mass and a volume of 1.
+    fn particle(&self, lane: usize) -> Particle {
+        let one = Lanes::all(1.0);
+        self.whole(&one, &one).particle(lane)
+    }
+
+    fn set_particle(&mut self, lane: usize, particle: &Particle) {
+        let one = Lanes::all(1.0);
+        let mut points = self.whole(&one, &one);
+        points.set_particle(lane, particle);
+        *self = Self::of(&points);
+    }
+}
+
 /// A row of particles.
 #[derive(Debug, Clone, Default)]
 pub(super) struct StressRow {
@@ -33,7 +94,7 @@ pub(super) struct StressRow {
     /// Sum of the squares of the distances of the neighbours from where the gradient puts them [m2].
     pub(super) misfit: Vec<f64>,
     /// Material, from place 1 on.
-    pub(super) points: Vec<MaterialPoints>,
+    pub(super) points: Vec<KeptPoints>,
     pub(super) taken: Taken,
 }
 
@@ -52,7 +113,7 @@ impl StressRow {
     /// A row of so many places, at rest and free of stress.
     pub(super) fn at_rest(places: usize, stiffness: f64, point: &Particle) -> Self {
         let zeros = || [0, 1, 2, 3].map(|_| vec![0.0; places]);
-        let mut points = MaterialPoints::default();
+        let mut points = KeptPoints::default();
         for lane in 0..LANES {
             points.set_particle(lane, point);
         }
@@ -63,6 +124,16 @@ impl StressRow {
             misfit: vec![0.0; places],
             points: vec![points; (places - 2) / LANES],
             taken: Taken::default(),
+        }
+    }
+
+    /// A row with what forces on others follow from.
+    pub(super) fn for_forces(&self) -> Self {
+        Self {
+            gradient: self.gradient.clone(),
+            stress: self.stress.clone(),
+            stiffness: self.stiffness.clone(),
+            ..Self::default()
         }
     }
 
@@ -78,7 +149,7 @@ impl StressRow {
         self.gradient.each_ref().map(|part| part[place])
     }
 
-    /// Material of a particle.
+    /// Material of a particle, without its mass and volume.
     pub(super) fn point(&self, place: usize) -> Particle {
         let index = place - 1;
         self.points[index / LANES].particle(index % LANES)

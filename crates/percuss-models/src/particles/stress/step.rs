@@ -4,9 +4,9 @@ use rayon::prelude::*;
 
 use super::{
     body::{StressBody, depths},
-    kernel::{Deformation, differences, forces, softened, strain},
+    kernel::{Deformation, differences, forces, softened, strain, volumes},
     ring::{Ring, WHOLE, load, store},
-    state::{StressRow, Taken},
+    state::{KeptPoints, StressRow, Taken},
 };
 use crate::{
     Error,
@@ -21,7 +21,7 @@ use crate::{
 };
 
 /// Rows that one task takes at least, and particles below which one task takes all.
-const LEAST_ROWS: usize = 4;
+const LEAST_ROWS: usize = 8;
 const SMALL: usize = 2048;
 /// Rounds of the search for the largest frequency, what they may leave, and the random numbers that it starts from.
 const FREQUENCY_ROUNDS: usize = 30;
@@ -35,6 +35,76 @@ pub(super) enum Response {
     Law(f64),
     /// Elastic, for small displacements: nothing is kept of them.
     Elastic,
+}
+
+/// Copies of the rows before and behind those of a task, as they are before a step.
+struct Halo {
+    states: [RowState; 2],
+    rows: [StressRow; 2],
+}
+
+/// Rows that a task brings to the end of a step: behind the row that is accelerated follow the one that moves and the one that is strained, so that
+/// a row comes into the cache once. Its first and its last row are strained when those around them have moved.
+struct Advance<'a> {
+    body: &'a StressBody,
+    first: usize,
+    halo: &'a Halo,
+    loads: &'a [Load<2>],
+    step: f64,
+    states: &'a mut [RowState],
+    motion: &'a mut [RowMotion],
+    rows: &'a mut [StressRow],
+    depths: &'a mut [[f64; 2]],
+}
+
+impl pulp::NullaryFnOnce for Advance<'_> {
+    /// Impulse on the support [N s per m].
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let Self {
+            body,
+            first,
+            halo,
+            loads,
+            step,
+            states,
+            motion,
+            rows,
+            depths,
+        } = self;
+        let is_moved = body.frame.rows[0].is_moved();
+        let mut support = 0.0;
+        let mut force = [0, 1].map(|_| vec![0.0; body.frame.stride]);
+        let count = states.len();
+        for lead in 0..count + 2 {
+            if lead < count {
+                let states = around(states, lead, &halo.states);
+                let rows = around(rows, lead, &halo.rows);
+                body.row_forces(first + lead, states, rows, loads, &mut force);
+                support += body.kick_row(first + lead, step, &mut force, &mut motion[lead]);
+            }
+            if let Some(index) = lead.checked_sub(1).filter(|&index| index < count) {
+                body.drift_row(
+                    first + index,
+                    step,
+                    &mut states[index],
+                    &motion[index],
+                    &mut depths[index],
+                );
+            }
+            if let Some(index) = lead.checked_sub(2).filter(|&i| i > 0 && i + 1 < count) {
+                let states = [&states[index - 1], &states[index], &states[index + 1]];
+                let (number, row) = (first + index, &mut rows[index]);
+                match is_moved {
+                    true => body.strain_row::<true>(number, states, Response::Law(step), row),
+                    false => body.strain_row::<false>(number, states, Response::Law(step), row),
+                }
+            }
+        }
+        support
+    }
 }
 
 /// Rows that a task accelerates.
@@ -63,25 +133,18 @@ impl pulp::NullaryFnOnce for Kick<'_> {
         let mut force = [0, 1].map(|_| vec![0.0; body.frame.stride]);
         for (index, motion) in motion.iter_mut().enumerate() {
             let row = first + index;
-            body.row_forces(row, loads, &mut force);
-            support += step * body.hold(row, &mut force[1]);
-            let inverse = &body.frame.rows[row].inverse_mass;
-            let count = inverse.len();
-            for (force, speed) in force.iter().zip([&mut motion.x, &mut motion.z]) {
-                let (force, speed) = (&force[..count], &mut speed[..count]);
-                for i in 0..count {
-                    speed[i] += step * force[i] * inverse[i];
-                }
-            }
+            body.present_forces(row, loads, &mut force);
+            support += body.kick_row(row, step, &mut force, motion);
         }
         support
     }
 }
 
-/// Rows whose deformations and stresses a task brings to the places of the particles.
+/// Rows whose deformations and stresses a task brings to the places of the particles: all, or the first and the last one.
 struct Strain<'a> {
     body: &'a StressBody,
     first: usize,
+    only_ends: bool,
     response: Response,
     rows: &'a mut [StressRow],
 }
@@ -94,27 +157,91 @@ impl pulp::NullaryFnOnce for Strain<'_> {
         let Self {
             body,
             first,
+            only_ends,
             response,
             rows,
         } = self;
         let is_moved = body.frame.rows[0].is_moved();
+        let last = rows.len() - 1;
         for (index, row) in rows.iter_mut().enumerate() {
+            if only_ends && index > 0 && index < last {
+                continue;
+            }
+            let number = first + index;
+            let states = around_whole(&body.frame.state, number);
             match is_moved {
-                true => body.strain_row::<true>(first + index, response, row),
-                false => body.strain_row::<false>(first + index, response, row),
+                true => body.strain_row::<true>(number, states, response, row),
+                false => body.strain_row::<false>(number, states, response, row),
             }
         }
     }
+}
+
+/// A row of a task and those around it.
+#[inline(always)]
+fn around<'a, T>(own: &'a [T], index: usize, ends: &'a [T; 2]) -> [&'a T; 3] {
+    let before = index.checked_sub(1).map_or(&ends[0], |before| &own[before]);
+    [before, &own[index], own.get(index + 1).unwrap_or(&ends[1])]
+}
+
+/// A row of the body and those around it; beyond its ends the own one, whose part is 0.
+#[inline(always)]
+fn around_whole<T>(all: &[T], row: usize) -> [&T; 3] {
+    [
+        &all[row.saturating_sub(1)],
+        &all[row],
+        &all[(row + 1).min(all.len() - 1)],
+    ]
 }
 
 impl StressBody {
     /// Advances all particles by a step [s] under the loads of contacts, which are in the order of the rows; returns the impulse on the
     /// support [N s per m]. Every particle sums up its own neighbours in one order, so threads change no bit.
     pub(super) fn advance_particles(&mut self, step: f64, loads: &[Load<2>]) -> f64 {
-        let support = self.kick(step, loads);
-        self.drift(step);
-        self.strain_all(Response::Law(step));
-        support
+        let at_once = self.rows_at_once();
+        let last = self.rows.len() - 1;
+        let halos: Vec<Halo> = (0..self.rows.len())
+            .step_by(at_once)
+            .map(|first| {
+                let ends = [first.saturating_sub(1), (first + at_once).min(last)];
+                Halo {
+                    states: ends.map(|row| self.frame.state[row].displacements()),
+                    rows: ends.map(|row| self.rows[row].for_forces()),
+                }
+            })
+            .collect();
+        let mut states = std::mem::take(&mut self.frame.state);
+        let mut motion = std::mem::take(&mut self.frame.motion);
+        let mut rows = std::mem::take(&mut self.rows);
+        let mut depths = std::mem::take(&mut self.depths);
+        let body = &*self;
+        let support: Vec<f64> = (states.par_chunks_mut(at_once))
+            .zip(motion.par_chunks_mut(at_once))
+            .zip(rows.par_chunks_mut(at_once))
+            .zip(depths.par_chunks_mut(at_once))
+            .zip(&halos)
+            .enumerate()
+            .map(|(slice, ((((states, motion), rows), depths), halo))| {
+                pulp::Arch::new().dispatch(Advance {
+                    body,
+                    first: slice * at_once,
+                    halo,
+                    loads,
+                    step,
+                    states,
+                    motion,
+                    rows,
+                    depths,
+                })
+            })
+            .collect();
+        self.frame.state = states;
+        self.frame.motion = motion;
+        self.rows = rows;
+        self.depths = depths;
+        self.strain_rows(Response::Law(step), true);
+        // The support stands behind one slice: all others add nothing.
+        support.iter().sum()
     }
 
     fn rows_at_once(&self) -> usize {
@@ -150,30 +277,52 @@ impl StressBody {
         support.iter().sum()
     }
 
-    /// Moves the particles.
-    pub(super) fn drift(&mut self, step: f64) {
-        let at_once = self.rows_at_once();
-        let mut states = std::mem::take(&mut self.frame.state);
-        let frame = &self.frame;
-        states
-            .par_iter_mut()
-            .zip(&frame.motion)
-            .zip(&mut self.depths)
-            .enumerate()
-            .with_min_len(at_once)
-            .for_each(|(row, ((state, motion), range))| {
-                for (place, speed) in [(&mut state.x, &motion.x), (&mut state.z, &motion.z)] {
-                    for (place, speed) in place.iter_mut().zip(speed) {
-                        *place += step * speed;
-                    }
-                }
-                *range = depths(frame, row, &state.z);
-            });
-        self.frame.state = states;
+    /// Changes the velocities of a row by the forces on it; gives the impulse on the support [N s per m].
+    #[inline(always)]
+    fn kick_row(
+        &self,
+        row: usize,
+        step: f64,
+        force: &mut [Vec<f64>; 2],
+        motion: &mut RowMotion,
+    ) -> f64 {
+        let support = step * self.hold(row, &mut force[1]);
+        let inverse = &self.frame.rows[row].inverse_mass;
+        let count = inverse.len();
+        for (force, speed) in force.iter().zip([&mut motion.x, &mut motion.z]) {
+            let (force, speed) = (&force[..count], &mut speed[..count]);
+            for i in 0..count {
+                speed[i] += step * force[i] * inverse[i];
+            }
+        }
+        support
+    }
+
+    /// Moves the particles of a row, and finds their depths.
+    #[inline(always)]
+    pub(super) fn drift_row(
+        &self,
+        row: usize,
+        step: f64,
+        state: &mut RowState,
+        motion: &RowMotion,
+        range: &mut [f64; 2],
+    ) {
+        for (place, speed) in [(&mut state.x, &motion.x), (&mut state.z, &motion.z)] {
+            for (place, speed) in place.iter_mut().zip(speed) {
+                *place += step * speed;
+            }
+        }
+        *range = depths(&self.frame, row, &state.z);
     }
 
     /// Brings deformations and stresses to the places of the particles.
     pub(super) fn strain_all(&mut self, response: Response) {
+        self.strain_rows(response, false);
+    }
+
+    /// The same of all rows, or of the first and the last one of each task.
+    fn strain_rows(&mut self, response: Response, only_ends: bool) {
         let at_once = self.rows_at_once();
         let mut rows = std::mem::take(&mut self.rows);
         let body = &*self;
@@ -183,6 +332,7 @@ impl StressBody {
                 pulp::Arch::new().dispatch(Strain {
                     body,
                     first: slice * at_once,
+                    only_ends,
                     response,
                     rows,
                 });
@@ -190,26 +340,16 @@ impl StressBody {
         self.rows = rows;
     }
 
-    /// The row before, the own and the next one; at the ends of the body the own one, whose part is 0.
-    #[inline(always)]
-    fn around<'a, T>(&self, all: &'a [T], row: usize) -> [&'a T; 3] {
-        [
-            &all[row.saturating_sub(1)],
-            &all[row],
-            &all[(row + 1).min(all.len() - 1)],
-        ]
-    }
-
     #[inline(always)]
     fn strain_row<const MOVED: bool>(
         &self,
         number: usize,
+        states: [&RowState; 3],
         response: Response,
         row: &mut StressRow,
     ) {
         let law = &*self.law;
         let make = &self.frame.rows[number];
-        let states: [&RowState; 3] = self.around(&self.frame.state, number);
         let masks = &self.triangles[number];
         let size = Lanes::all(self.frame.lattice.spacing);
         let per_density = 1.0 / law.density;
@@ -246,18 +386,19 @@ impl StressBody {
                         }
                     });
                     let before = row.gradients(place);
-                    let points = &mut row.points[block];
+                    let mut points = row.points[block].whole(&self.present(&mass), &volume);
                     let strain_before = points.plastic_strain;
                     let cauchy = strain(
                         law,
-                        points,
+                        &mut points,
                         (&before, &deformation.gradient),
                         &volume,
                         (step, &size),
                         &mut taken,
                     );
                     let softer =
-                        softened(law, points, &strain_before, (&stiffness, self.stiffness));
+                        softened(law, &points, &strain_before, (&stiffness, self.stiffness));
+                    row.points[block] = KeptPoints::of(&points);
                     // The mean of both forces, on the way between both misfits.
                     let misfit = load(&row.misfit, place);
                     let all = lost;
@@ -282,12 +423,33 @@ impl StressBody {
         row.taken.add(&taken, &lost);
     }
 
-    /// Forces on the particles of a row, with the loads of contacts.
+    /// Masses of eight particles; where there is none, that of 1 m³, so that no number is undefined.
     #[inline(always)]
-    fn row_forces(&self, row: usize, loads: &[Load<2>], force: &mut [Vec<f64>; 2]) {
+    fn present(&self, mass: &Lanes) -> Lanes {
+        let density = self.law.density;
+        lanes(|l| if mass[l] > 0.0 { mass[l] } else { density })
+    }
+
+    /// Forces on the particles of a row of the whole body, with the loads of contacts.
+    #[inline(always)]
+    fn present_forces(&self, row: usize, loads: &[Load<2>], force: &mut [Vec<f64>; 2]) {
+        let states = around_whole(&self.frame.state, row);
+        self.row_forces(row, states, around_whole(&self.rows, row), loads, force);
+    }
+
+    /// Forces on the particles of a row between those around it, with the loads of contacts.
+    #[inline(always)]
+    fn row_forces(
+        &self,
+        row: usize,
+        states: [&RowState; 3],
+        rows: [&StressRow; 3],
+        loads: &[Load<2>],
+        force: &mut [Vec<f64>; 2],
+    ) {
         match self.frame.rows[0].is_moved() {
-            true => self.inner_forces::<true>(row, force),
-            false => self.inner_forces::<false>(row, force),
+            true => self.inner_forces::<true>(row, states, rows, force),
+            false => self.inner_forces::<false>(row, states, rows, force),
         }
         let start = loads.partition_point(|load| load.row < row);
         for load in loads[start..].iter().take_while(|load| load.row == row) {
@@ -297,9 +459,13 @@ impl StressBody {
     }
 
     #[inline(always)]
-    fn inner_forces<const MOVED: bool>(&self, row: usize, force: &mut [Vec<f64>; 2]) {
-        let states: [&RowState; 3] = self.around(&self.frame.state, row);
-        let rows: [&StressRow; 3] = self.around(&self.rows, row);
+    fn inner_forces<const MOVED: bool>(
+        &self,
+        row: usize,
+        states: [&RowState; 3],
+        rows: [&StressRow; 3],
+        force: &mut [Vec<f64>; 2],
+    ) {
         let masks = &self.triangles[row];
         for block in 0..rows[1].points.len() {
             let place = 1 + block * LANES;
@@ -334,7 +500,7 @@ impl StressBody {
     /// Kinetic energy as of the lattice, with velocities half a step before and after.
     fn row_sums(&self, row: usize, step: f64, loads: &[Load<2>]) -> BodySums {
         let mut force = [0, 1].map(|_| vec![0.0; self.frame.stride]);
-        self.row_forces(row, loads, &mut force);
+        self.present_forces(row, loads, &mut force);
         self.hold(row, &mut force[1]);
         let (make, motion, own) = (
             &self.frame.rows[row],
@@ -377,9 +543,15 @@ impl StressBody {
             let mut least = Lanes::all(f64::INFINITY);
             for (block, points) in row.points.iter().enumerate() {
                 let place = 1 + block * LANES;
-                let squared = self.law.wave_speed_squared(points);
-                let [xx, xz, zx, zz] = row.gradients(place);
+                let gradient = row.gradients(place);
+                let [xx, xz, zx, zz] = gradient;
                 let (mass, before) = (load(&make.mass, place), least);
+                let (present, per_density) = (self.present(&mass), 1.0 / self.law.density);
+                let ratio = volumes(&gradient);
+                let volume = lanes(|l| present[l] * per_density * ratio[l]);
+                let squared = self
+                    .law
+                    .wave_speed_squared(&points.whole(&present, &volume));
                 least = lanes(|l| {
                     let gradient = [xx[l], xz[l], zx[l], zz[l]];
                     let (_, stretch) = super::state::volume_and_stretch(gradient);

@@ -94,7 +94,12 @@ fn forces_of_a_nose_balance_on_a_symmetric_body() {
     let body = strip(Space::PlaneStrain, 0.2, 9, 40);
     for nose in NOSES {
         let shape = long(nose, 5.3e-3);
-        let found = contact(&body, Rigid::Projectile(shape), Pose::straight(2.0e-3));
+        let found = contact(
+            &body,
+            Rigid::Projectile(shape),
+            Pose::straight(2.0e-3),
+            None,
+        );
         assert!(found.loads.is_sorted_by_key(|load| load.row), "{nose:?}");
         let across: f64 = found.loads.iter().map(|load| load.force[0]).sum();
         let along: f64 = found.loads.iter().map(|load| load.force[1]).sum();

@@ -121,7 +121,7 @@ fn forces_and_moment_of_a_tilted_body_come_from_the_energy() {
                 tip: [x, z],
                 turn: [cosine, sine],
             };
-            contact(&body, Rigid::Projectile(shape), pose)
+            contact(&body, Rigid::Projectile(shape), pose, None)
         };
         let (x, z, angle) = (0.31e-3, 2.13e-3, -0.4);
         let found = at(x, z, angle);
@@ -179,7 +179,7 @@ fn a_round_nose_bounces_off_by_the_laws_of_impulse() {
         let step = 2e-8;
         let mut touched = false;
         for _ in 0..200_000 {
-            let found = contact(&body, rigid, flight.pose(&inertia));
+            let found = contact(&body, rigid, flight.pose(&inertia), None);
             flight.advance(step, &inertia, &found);
             if touched && found.loads.is_empty() {
                 break;
