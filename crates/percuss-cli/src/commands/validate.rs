@@ -41,7 +41,8 @@ target_material, measured, unit, and for targets other than `rigid-wall`
 thickness_mm.
 
 With --out DIR the report is written as one HTML page and as Markdown with its
-figures as PNG, and the numbers as CSV and Parquet. --figures adds other formats.";
+figures as PNG, and the numbers as CSV and Parquet. --figures adds other
+formats.";
 
 const AFTER_HELP: &str = "\
 Examples:
