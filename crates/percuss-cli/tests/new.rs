@@ -232,3 +232,22 @@ fn keys_of(object: &Value) -> Vec<&String> {
         .chain(variants.flatten().flat_map(keys_of))
         .collect()
 }
+
+/// Each material that the brittle plate names as another choice is one, and the plate cracks.
+#[test]
+fn the_brittle_plate_runs_with_every_material_that_it_names() {
+    let folder = TempDir::new().unwrap();
+    let new = ["new", "plate", "--template", "brittle-plate"];
+    ok(folder.path(), &new);
+    let text = fs::read_to_string(folder.path().join("plate/scenario.toml")).unwrap();
+    let line = text.lines().find(|line| line.contains(" # or \"alumina"));
+    let names: Vec<&str> = line.unwrap().split('"').skip(1).step_by(2).collect();
+    assert!(names.len() >= 3, "{names:?}");
+    for name in &names {
+        let case = text.replacen(&format!("\"{}\"", names[0]), &format!("\"{name}\""), 1);
+        let folder = shot(&case);
+        let run = ["run", "shot.toml", "--model", "particles", "--json"];
+        let broken = &json(&ok(folder.path(), &run))["results"][0]["broken_bonds"];
+        assert!(broken.as_u64().unwrap() > 0, "{name}");
+    }
+}

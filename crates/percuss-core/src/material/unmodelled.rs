@@ -32,7 +32,7 @@ const POLYMERS: &str = "no published law of its strength could be read; `polycar
 const NYLON: &str = "its shock Hugoniot is published in a readable place, its strength at high rates is not; `polycarbonate` is the nearest \
     ductile polymer, and no equivalent";
 /// Rocks and ice.
-const ROCKS: &str = "no published law of its strength under impact could be read; `concrete` is the only record of that kind, and no equivalent";
+const ROCKS: &str = "no published law of its strength under impact could be read; `granite` and `concrete` are the only records of that kind, and no equivalents";
 
 /// Names, in lower case with hyphens, and why they have no record. A word of a name is enough.
 const UNMODELLED: &[(&[&str], &str)] = &[
@@ -106,15 +106,7 @@ const UNMODELLED: &[(&[&str], &str)] = &[
         POLYMERS,
     ),
     (
-        &[
-            "granite",
-            "limestone",
-            "marble",
-            "basalt",
-            "sandstone",
-            "rock",
-            "ice",
-        ],
+        &["limestone", "marble", "basalt", "sandstone", "rock", "ice"],
         ROCKS,
     ),
 ];
