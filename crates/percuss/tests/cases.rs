@@ -242,6 +242,7 @@ cases! {
     oblique_strip_on_glass: "oblique-strip-on-glass",
     ball_on_glass_plate: "ball-on-glass-plate",
     cracks_from_two_notches: "cracks-from-two-notches",
+    disc_split_at_its_rim: "disc-split-at-its-rim",
     chung_ooi_1_two_balls: "chung-ooi-1-two-balls",
     chung_ooi_2_ball_on_plane: "chung-ooi-2-ball-on-plane",
     chung_ooi_3_restitution: "chung-ooi-3-restitution",

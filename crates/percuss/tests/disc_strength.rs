@@ -38,6 +38,9 @@ fn strength(criterion: &str, seed: u32) -> f64 {
     let result = model::run(particles, &scenario, &mut Control::default()).unwrap();
     assert!(result.numerics().energy_residual < 1e-3);
     assert!(result.cracks.unwrap().broken_bonds > 0);
+    let mut details = result.details.iter();
+    let ratio = details.find(|d| d.name.starts_with("area of the lattice"));
+    assert!((ratio.unwrap().value - 0.957).abs() < 0.01, "{ratio:?}");
     2.0 * result.peak_force.unwrap() / (PI * DIAMETER) / (STRENGTH * 1e6)
 }
 

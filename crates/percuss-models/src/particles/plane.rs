@@ -1,5 +1,7 @@
 //! The hexagonal lattice as a body of a run.
 
+use std::f64::consts::PI;
+
 use super::{
     body::Body,
     bonded::{At, Bond, Bonded, Load},
@@ -217,15 +219,24 @@ impl Bonded<2> for Body {
     fn details(&self, scenario: &Scenario, inertia: &Inertia) -> Vec<Detail> {
         let extent = setup::extent(scenario);
         let detail = |name, unit, value| Detail { name, unit, value };
-        vec![
-            detail("mass of the projectile, a metre wide", "kg", inertia.mass),
-            detail("width of the lattice", "mm", self.width() * 1e3),
-            detail(
-                "area of the lattice over that of the body",
-                "",
-                self.area / (extent.length * extent.width),
-            ),
-        ]
+        let mut details = vec![detail(
+            "mass of the projectile, a metre wide",
+            "kg",
+            inertia.mass,
+        )];
+        let area = match setup::is_disc(scenario) {
+            true => 0.25 * PI * extent.length * extent.length,
+            false => {
+                details.push(detail("width of the lattice", "mm", self.width() * 1e3));
+                extent.length * extent.width
+            }
+        };
+        details.push(detail(
+            "area of the lattice over that of the body",
+            "",
+            self.area / area,
+        ));
+        details
     }
 
     fn notes(&self, scenario: &Scenario) -> Vec<String> {
