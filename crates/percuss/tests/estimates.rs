@@ -28,18 +28,23 @@ fn random(count: u64) -> Vec<Scenario> {
     scenarios.filter(|s| s.impact_velocity > 10.0).collect()
 }
 
+/// Rods of `fdm` do not erode: what strikes faster than about 1 km/s is crushed, with steps that no estimate follows.
 #[test]
 fn estimated_steps_are_of_the_order_of_those_that_are_taken() {
-    let scenarios = random(150);
-    for (name, every, factor) in [("chain", 1, 6.0), ("fdm", 1, 6.0), ("axi", 15, 6.0)] {
+    const FACTOR: f64 = 6.0;
+    let scenarios = random(600);
+    for (name, every, least) in [("chain", 4, 0.75), ("fdm", 1, 0.6), ("axi", 60, 0.7)] {
         let of_model = scenarios.iter().step_by(every);
         let ratios: Vec<f64> = of_model.filter_map(|s| ratio(name, s)).collect();
         let near = ratios
             .iter()
-            .filter(|r| (1.0 / factor..factor).contains(*r));
+            .filter(|r| (1.0 / FACTOR..FACTOR).contains(*r));
         let part = near.count() as f64 / ratios.len() as f64;
-        println!("{name}: {part:.2} of {} within {factor}", ratios.len());
-        assert!(ratios.len() > 5 && part > 0.7, "{name}: {part} {ratios:?}");
+        println!("{name}: {part:.2} of {} within {FACTOR}", ratios.len());
+        assert!(
+            ratios.len() > 5 && part > least,
+            "{name}: {part} {ratios:?}"
+        );
     }
 }
 
