@@ -58,8 +58,11 @@ def test_a_run_without_a_model_takes_the_one_of_the_program(program: Program, tm
     assert ran.model_choice is not None and "instead of the default `chain`" in ran.model_choice
     with pytest.raises(percuss.NotApplicableError, match="it takes flat noses"):
         percuss.run(sharp, "chain")
+    assert percuss.run(sharp.replace({"target": {"rigid_wall": True}})).model == "axi"
+    layer = {"material": "6061-t6", "thickness": "4 mm"}
+    apart = {"layers": [layer, layer | {"gap": "9 mm"}]}
     with pytest.raises(percuss.NotApplicableError, match="no quick model applies"):
-        percuss.run(sharp.replace({"target": {"rigid_wall": True}}))
+        percuss.run(sharp.replace({"target": apart}))
 
 
 def test_the_axisymmetric_answer_is_that_of_the_program(program: Program, tmp_path: Path) -> None:
