@@ -61,7 +61,7 @@ def test_a_run_without_a_model_takes_the_one_of_the_program(program: Program, tm
     assert percuss.run(sharp.replace({"target": {"rigid_wall": True}})).model == "axi"
     layer = {"material": "6061-t6", "thickness": "4 mm"}
     apart = {"layers": [layer, layer | {"gap": "9 mm"}]}
-    with pytest.raises(percuss.NotApplicableError, match="no quick model applies"):
+    with pytest.raises(percuss.NotApplicableError, match="no model applies to this case"):
         percuss.run(sharp.replace({"target": apart}))
 
 
