@@ -20,14 +20,17 @@ use toml_edit::{DocumentMut, Item, value};
 
 use crate::common::expected::{Expected, File, Kind};
 
+/// A case as it was run, with its result.
+type Run = Rc<(Scenario, RunResult)>;
+
 /// Runs of a case by model and impact velocity: entries share them.
 struct Runs<'a> {
     folder: &'a Path,
-    done: HashMap<(String, Option<u64>), Rc<(Scenario, RunResult)>>,
+    done: HashMap<(String, Option<u64>), Run>,
 }
 
 impl Runs<'_> {
-    fn run(&mut self, expected: &Expected, velocity: Option<f64>) -> Rc<(Scenario, RunResult)> {
+    fn run(&mut self, expected: &Expected, velocity: Option<f64>) -> Run {
         let key = (expected.model.clone(), velocity.map(f64::to_bits));
         let run = || Rc::new(run(self.folder, &expected.model, velocity));
         Rc::clone(self.done.entry(key).or_insert_with(run))
