@@ -127,7 +127,7 @@ pub struct Regime {
 }
 
 /// Plastic strain at which a strength is evaluated: reached early in any impact that yields.
-pub(crate) const STRENGTH_STRAIN: f64 = 0.1;
+pub const STRENGTH_STRAIN: f64 = 0.1;
 /// Factor on either side of a threshold stress within which the classification is uncertain.
 const STRESS_EDGE: f64 = 1.5;
 /// Factor on either side of a threshold speed within which the classification is uncertain.

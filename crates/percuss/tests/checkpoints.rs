@@ -242,7 +242,7 @@ fn every_solver_continues_from_a_checkpoint_with_the_same_bits() {
             let result = run(model, &scenario, &mut control).unwrap();
             assert!(numbers(&result) == of_whole, "{what}, checkpoint {wanted}");
             resumed += 1;
-            wanted *= 5;
+            wanted *= 3;
         }
         println!(
             "{what}: {} steps, {resumed} checkpoints, {} warnings",

@@ -28,12 +28,11 @@ fn random(count: u64) -> Vec<Scenario> {
     scenarios.filter(|s| s.impact_velocity > 10.0).collect()
 }
 
-/// Rods of `fdm` do not erode: what strikes faster than about 1 km/s is crushed, with steps that no estimate follows.
 #[test]
 fn estimated_steps_are_of_the_order_of_those_that_are_taken() {
     const FACTOR: f64 = 6.0;
     let scenarios = random(600);
-    for (name, every, least) in [("chain", 4, 0.75), ("fdm", 1, 0.6), ("axi", 60, 0.7)] {
+    for (name, every, least) in [("chain", 4, 0.8), ("fdm", 1, 0.7), ("axi", 60, 0.7)] {
         let of_model = scenarios.iter().step_by(every);
         let ratios: Vec<f64> = of_model.filter_map(|s| ratio(name, s)).collect();
         let near = ratios

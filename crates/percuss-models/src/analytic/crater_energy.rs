@@ -11,14 +11,11 @@ use crate::{
     Error, Refusal, Scenario,
     material::cavity_expansion_pressure,
     outcome::{BandQuantity, Outcome, RunResult},
-    regime::{ProjectileRegime, Regime, TargetKind},
+    regime::{ProjectileRegime, Regime, STRENGTH_STRAIN, TargetKind},
     solver::{Control, Model},
     units::Pressure,
     validity::{Range, ValidityDomain},
 };
-
-/// Plastic strain at which the projectile's flow stress stands for its strength, as in [`crate::regime`].
-const STRENGTH_STRAIN: f64 = 0.1;
 
 /// `½ m V² = R × volume of the crater`: the class of energy balances for thick targets.
 #[derive(Debug, Clone, Copy)]

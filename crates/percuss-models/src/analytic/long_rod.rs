@@ -6,15 +6,12 @@ use crate::{
     material::Material,
     outcome::{Detail, Outcome, RunResult, Termination},
     problem::Nose,
-    regime::{ProjectileRegime, Regime},
+    regime::{ProjectileRegime, Regime, STRENGTH_STRAIN},
     scenario::{Scenario, TargetBody},
     units::{Pressure, significant},
 };
 
 use super::ode::IntegrationError;
-
-/// Plastic strain at which a flow stress stands for a strength, as in [`crate::regime`].
-pub(super) const STRENGTH_STRAIN: f64 = 0.1;
 
 /// Why a model without noses does not apply to a sharp projectile that stays rigid; `None` for every other case.
 pub(super) fn sharp_and_rigid(scenario: &Scenario) -> Option<Refusal> {

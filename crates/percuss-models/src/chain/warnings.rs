@@ -8,6 +8,7 @@ use crate::{
     options::{BorderShearLaw, ErosionCriterion, TargetResistanceModel},
     outcome::{Outcome, RunResult},
     problem::RearFaceCondition,
+    regime::STRENGTH_STRAIN,
     scenario::{Plate, Scenario, TargetBody, modelled_thickness},
     units::{StrainRate, Temperature, Velocity, significant},
     validity::{fixed_rear_face_warning, pushed_column_warning},
@@ -203,8 +204,6 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
     }
 }
 
-/// Plastic strain at which a strength is evaluated: reached early in any impact that yields.
-const STRENGTH_STRAIN: f64 = 0.1;
 /// Factor on either side of the threshold of penetration within which the cones are at their weakest.
 const THRESHOLD_EDGE: f64 = 1.4;
 /// Section of the compliance of the cone that may lie behind a plate's rear face.

@@ -12,9 +12,10 @@ pub use planar::StateEquation;
 
 use crate::{
     Error, Refusal, Scenario,
+    analytic::TaylorRod,
     options::{ChainOptions, ErosionStrain},
     outcome::RunResult,
-    regime::{ProjectileRegime, Regime},
+    regime::{ProjectileRegime, Regime, STRENGTH_STRAIN},
     solver::{
         Control, CostClass, Estimate, Model,
         estimate::{ExpectedTimes, WorkRate, element_time},
@@ -80,7 +81,8 @@ impl Model for Fdm {
             }
             Geometry::Rod => {
                 let (courant, limits) = rod::limits(scenario);
-                let time_step = courant * element_time(scenario, (rod as usize, target as usize));
+                let cells = (rod as usize, target as usize);
+                let time_step = courant * element_time(scenario, cells) * tip_length(scenario);
                 let end = ExpectedTimes::of(scenario).weighted(ROD_DURATION);
                 (time_step, end, limits)
             }
@@ -115,6 +117,16 @@ impl Model for Fdm {
             Geometry::Planar => planar::PlanarRun::new(scenario, control)?.run(control),
         }
     }
+}
+
+/// Smallest length of a cell over its first one: that of the tip of Taylor's rod \[taylor1948\]. Steps shorten with it.
+fn tip_length(scenario: &Scenario) -> f64 {
+    let rod = &scenario.projectile.material;
+    let Some(strength) = rod.flow_stress(STRENGTH_STRAIN) else {
+        return 1.0;
+    };
+    let number = rod.density.si() * scenario.impact_velocity.powi(2) / strength;
+    1.0 - TaylorRod::new(number).strain
 }
 
 /// Why a rod that erodes gets no number: its cells are crushed instead, to nothing and at the cost of any number of time steps.

@@ -1,10 +1,7 @@
 //! What makes two cases similar: velocity, L/D, strength ratio and density ratio.
 
 use super::ErrorRecord;
-use crate::{Scenario, material::Material, scenario::TargetBody};
-
-/// Plastic strain at which strengths are compared.
-const STRENGTH_STRAIN: f64 = 0.1;
+use crate::{Scenario, material::Material, regime::STRENGTH_STRAIN, scenario::TargetBody};
 
 /// Logarithms of impact velocity [m/s], L/D, and ratios of flow stress and density, projectile over target.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,15 +7,13 @@ pub use equations::{Phase, Rods, Stop};
 
 use super::{
     deep_penetration::never_yields,
-    long_rod::{
-        LongRod, NOT_ONE_TARGET, STRENGTH_STRAIN, detail, rests_on, sharp_and_rigid, strength,
-    },
+    long_rod::{LongRod, NOT_ONE_TARGET, detail, rests_on, sharp_and_rigid, strength},
 };
 use crate::{
     Error, Refusal, Scenario,
     material::{Material, MaterialClass, cavity_expansion_pressure},
     outcome::{Band, BandQuantity, Outcome, RunResult, Termination},
-    regime::{ProjectileRegime, TargetKind},
+    regime::{ProjectileRegime, STRENGTH_STRAIN, TargetKind},
     solver::{Control, Model},
     units::Pressure,
     validity::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
