@@ -163,7 +163,7 @@ def uncertainty(
         Name of the model; ``chain`` when not given.
     samples : int, optional
         Runs that the statistics rest on, a power of two at best; 1024 when not given. The indices of d parameters take
-        ``samples * (d + 1) / 2`` more.
+        ``samples * (d + 1) / 2`` more, at least ``16 * (d + 1)``.
     seed : int, optional
         Seed of the random numbers; 0 when not given.
     quantity : str or sequence of str, optional

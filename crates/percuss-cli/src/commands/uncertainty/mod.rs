@@ -49,8 +49,8 @@ deviation and percentiles of each result with 95 % intervals, the probability of
 perforation, the effect of each parameter from low to high (tornado), and the
 first-order and total-effect Sobol' indices: the fraction of the variance due to
 a parameter alone, and including its interactions. With N samples and d
-parameters the indices take N (d + 1) / 2 additional runs. Correlated parameters
-have no such indices.
+parameters the indices take N (d + 1) / 2 additional runs, at least 16 (d + 1).
+Correlated parameters have no such indices.
 
 With --velocity the analysis is repeated at each of several impact velocities,
 with at most 256 runs each: percentiles and probability of perforation versus
