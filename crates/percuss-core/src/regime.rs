@@ -128,6 +128,12 @@ pub struct Regime {
 
 /// Plastic strain at which a strength is evaluated: reached early in any impact that yields.
 pub const STRENGTH_STRAIN: f64 = 0.1;
+
+/// Strain `1 − A₀/A` of the struck end of a perfectly plastic rod on a rigid wall, for `ρv²/Y` \[taylor1948\]: `e²/(1 − e) = ρv²/Y`.
+pub fn struck_end_strain(number: f64) -> f64 {
+    2.0 * number / ((number * number + 4.0 * number).sqrt() + number)
+}
+
 /// Factor on either side of a threshold stress within which the classification is uncertain.
 const STRESS_EDGE: f64 = 1.5;
 /// Factor on either side of a threshold speed within which the classification is uncertain.

@@ -8,7 +8,7 @@ use super::{
 use crate::{
     Error, Refusal, Scenario,
     outcome::{BandQuantity, Outcome, RunResult},
-    regime::{ProjectileRegime, TargetKind},
+    regime::{ProjectileRegime, TargetKind, struck_end_strain},
     solver::{Control, Model},
     validity::{Measure, NoseKind, Outside, Range, ValidityDomain},
 };
@@ -41,7 +41,7 @@ impl TaylorRod {
                 length: 1.0,
             };
         }
-        let strain = 2.0 * number / ((number * number + 4.0 * number).sqrt() + number);
+        let strain = struck_end_strain(number);
         // 1 − e without the loss of digits where e is near 1.
         let left = strain * strain / number;
         let whole = 1.0 / left - 1.0 - left.ln();

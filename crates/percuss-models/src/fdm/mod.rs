@@ -12,10 +12,9 @@ pub use planar::StateEquation;
 
 use crate::{
     Error, Refusal, Scenario,
-    analytic::TaylorRod,
     options::{ChainOptions, ErosionStrain},
     outcome::RunResult,
-    regime::{ProjectileRegime, Regime, STRENGTH_STRAIN},
+    regime::{ProjectileRegime, Regime, STRENGTH_STRAIN, struck_end_strain},
     solver::{
         Control, CostClass, Estimate, Model,
         estimate::{ExpectedTimes, WorkRate, element_time},
@@ -126,7 +125,7 @@ fn tip_length(scenario: &Scenario) -> f64 {
         return 1.0;
     };
     let number = rod.density.si() * scenario.impact_velocity.powi(2) / strength;
-    1.0 - TaylorRod::new(number).strain
+    1.0 - struck_end_strain(number)
 }
 
 /// Why a rod that erodes gets no number: its cells are crushed instead, to nothing and at the cost of any number of time steps.
