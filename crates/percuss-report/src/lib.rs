@@ -37,6 +37,8 @@ mod caption;
 mod chart;
 mod chart_data;
 mod chart_methods;
+#[cfg(feature = "png")]
+mod clipped;
 mod color_bar;
 pub mod column;
 mod compare_figure;

@@ -7,7 +7,7 @@ use resvg::{
     usvg::{Options, Tree, fontdb::Database},
 };
 
-use crate::{Figure, ReportError, figure::SpareMemory, png_file};
+use crate::{Figure, ReportError, clipped, figure::SpareMemory, png_file};
 
 /// Pixels of a PNG per SVG user unit.
 const PNG_SCALE: f32 = 2.0;
@@ -36,21 +36,22 @@ impl Figure {
 
     fn pixels_in(&self, scale: f32, spare: &SpareMemory) -> Result<Pixmap, ReportError> {
         // The white behind all of it stands in the picture already.
-        let tree = tree(&self.name, &self.svg.replacen(BACKGROUND, "", 1))?;
-        let size = tree
-            .size()
-            .to_int_size()
-            .scale_by(scale)
+        let pieces = clipped::pieces(&self.svg.replacen(BACKGROUND, "", 1));
+        let trees = pieces
+            .iter()
+            .map(|piece| Ok((tree(&self.name, &piece.svg)?, piece.clip)));
+        let trees: Vec<_> = trees.collect::<Result<_, _>>()?;
+        let size = trees
+            .first()
+            .and_then(|(tree, _)| tree.size().to_int_size().scale_by(scale))
             .ok_or_else(|| failure(&self.name, "it has no area".to_owned()))?;
         let bytes = 4 * size.width() as usize * size.height() as usize;
         let mut pixels = Pixmap::from_vec(spare.take(bytes), size)
             .ok_or_else(|| failure(&self.name, "it is too large".to_owned()))?;
         pixels.fill(Color::WHITE);
-        resvg::render(
-            &tree,
-            Transform::from_scale(scale, scale),
-            &mut pixels.as_mut(),
-        );
+        for (tree, clip) in &trees {
+            clipped::draw(tree, *clip, scale, &mut pixels);
+        }
         Ok(pixels)
     }
 }
