@@ -36,11 +36,20 @@ def read(path: str) -> Problem:
     return Problem(rod, steps, float(words[4]), *columns, numbers[5 * springs : 5 * springs + chains])
 
 
+def timed(work: Callable[[], np.ndarray], amount: Callable[[np.ndarray], float] | None = None) -> np.ndarray:
+    """Does the work; prints seconds by the clock and of the processor, and how much it was where that is not known beforehand."""
+    start, start_of_work = time.perf_counter(), time.process_time()
+    ends = work()
+    seconds = f"{time.perf_counter() - start:.9f} {time.process_time() - start_of_work:.9f}"
+    print(f"{seconds} {amount(ends):.0f}" if amount else seconds)
+    return ends
+
+
+def write(path: str, ends: np.ndarray) -> None:
+    np.ascontiguousarray(ends, dtype="<f8").tofile(path)
+
+
 def main(advance: Callable[[Problem, str, str, int], Callable[[], np.ndarray]]) -> None:
     """`PROGRAM PROBLEM one|batch power|linear THREADS END`: `advance` gets everything ready and gives back the work to be timed."""
     _, path, together, law, threads, end = sys.argv
-    work = advance(read(path), together, law, int(threads))
-    start, start_of_work = time.perf_counter(), time.process_time()
-    ends = work()
-    print(f"{time.perf_counter() - start:.9f} {time.process_time() - start_of_work:.9f}")
-    np.ascontiguousarray(ends, dtype="<f8").tofile(end)
+    write(end, timed(advance(read(path), together, law, int(threads))))

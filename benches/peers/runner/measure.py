@@ -21,17 +21,23 @@ Work = tuple[str, str, int]
 
 @dataclass(frozen=True)
 class Timing:
-    """Seconds by the clock and of all processors, for work of so many elements times steps."""
+    """Seconds by the clock and of all processors, for work of so many elements times steps, in so many chains or runs."""
 
     clock: float
     processor: float
     amount: float
     cores: int
+    chains: int = 1
 
     @property
     def rate(self) -> float:
         """Million elements times steps a second: of processor time on one core, which others may share, by the clock on several."""
         return self.amount / (self.processor if self.cores == 1 else self.clock) / 1e6
+
+    @property
+    def each(self) -> float:
+        """Seconds a chain or run."""
+        return self.amount / (self.rate * 1e6) / self.chains
 
     @property
     def share(self) -> float:
@@ -54,19 +60,23 @@ class Checked:
 
 
 def run(program: Program, kind: Work, chains: int) -> tuple[Timing, array.array]:
-    """Advances chains; gives where their masses end [m], too."""
+    """Advances chains or computes runs; gives where their masses end [m], or four numbers a run, too."""
     together, law, cores = kind
-    problem, end = TARGET / f"chains_{chains}.txt", TARGET / "end.f64"
+    problem, end = TARGET / f"{'runs' if law == 'cavity' else 'chains'}_{chains}.txt", TARGET / "end.f64"
     if not problem.exists():
-        work.write(problem, chains, STEPS)
+        if law == "cavity":
+            work.write_runs(problem, chains)
+        else:
+            work.write(problem, chains, STEPS)
     end.unlink(missing_ok=True)
     words = [*program.command, str(problem), together, law, str(cores), str(end)]
     seconds = answer(words, program.environment)
     ends = array.array("d", end.read_bytes())
     if sys.byteorder == "big":
         ends.byteswap()
-    amount = float(chains * STEPS * len(work.springs()))
-    return Timing(seconds[0], seconds[1], amount, cores), ends
+    # Complete runs tell how many steps they took.
+    amount = seconds[2] if law == "cavity" else float(chains * STEPS * len(work.springs()))
+    return Timing(seconds[0], seconds[1], amount, cores, chains), ends
 
 
 def answer(words: list[str], environment: dict[str, str]) -> list[float]:
@@ -79,7 +89,7 @@ def answer(words: list[str], environment: dict[str, str]) -> list[float]:
 
 def check(programs: list[Program], skipped: dict[str, str]) -> list[Checked]:
     """Runs every program on every kind of work that it knows, and compares the ends. What fails joins the programs that are skipped."""
-    for old in TARGET.glob("chains_*.txt"):
+    for old in [*TARGET.glob("chains_*.txt"), *TARGET.glob("runs_*.txt")]:
         old.unlink()
     reference = next(program for program in programs if program.name == REFERENCE)
     checked = []
@@ -92,22 +102,26 @@ def check(programs: list[Program], skipped: dict[str, str]) -> list[Checked]:
                 skipped[f"{program.name}, {words_of(kind)}"] = missing.why
                 print(f"{program.name}, {words_of(kind)}: skipped: {missing.why}", file=sys.stderr)
                 continue
-            off = difference(wanted, ends)
+            off = difference(wanted, ends, kind[1] == "cavity")
             checked.append(Checked(program, kind, off, timing))
             verdict = "agrees" if checked[-1].agrees else f"DOES NOT AGREE within {program.tolerance:g}: not timed"
             print(f"{program.name}, {words_of(kind)}: {verdict} (off by {off:.1e})", file=sys.stderr)
     return checked
 
 
-def difference(wanted: array.array, ends: array.array) -> float:
-    """The largest difference as a part of the largest displacement; infinite where something is no number or missing."""
+def difference(wanted: array.array, ends: array.array, own: bool) -> float:
+    """The largest difference as a part of the largest displacement, or each as a part of its `own` number; infinite where something is no number or missing."""
     if len(wanted) != len(ends) or not all(map(math.isfinite, ends)):
         return math.inf
+    if own:
+        return max(abs(a - b) / abs(a) for a, b in zip(wanted, ends))
     return max(abs(a - b) for a, b in zip(wanted, ends)) / max(map(abs, wanted))
 
 
 def words_of(kind: Work) -> str:
     together, law, cores = kind
+    if law == "cavity":
+        return "complete runs, " + ("batch" if together == "batch" else "one by one")
     law = "power law" if law == "power" else "linear"
     return f"{'batch' if together == 'batch' else 'one chain'}, {law}, {cores} core{'s' if cores > 1 else ''}"
 
@@ -122,6 +136,8 @@ def rounds(checked: list[Checked], count: int, seconds: float) -> dict[tuple[str
         print(f"round {number} of {count}", file=sys.stderr)
         for c, chains in plans:
             results.setdefault((c.program.name, c.work), []).append(run(c.program, c.work, chains)[0])
+        if ONE_POWER not in percuss.works:
+            continue
         for name, kind, timing in complete_runs(percuss, seconds):
             results.setdefault((name, kind), []).append(timing)
     return results
@@ -154,10 +170,34 @@ def complete_runs(percuss: Program, seconds: float) -> Iterator[tuple[str, Work,
         count = max(1, round(seconds * cores / each / BLOCK)) * BLOCK if what == "sweep" else max(8, round(seconds / each))
         words = [*percuss.command, str(PEERS / "runs.toml"), what, str(count), str(cores)]
         clock, processor, amount = answer(words, {})
-        yield name, kind, Timing(clock, processor, amount, cores)
+        yield name, kind, Timing(clock, processor, amount, cores, count)
+
+
+def ratios(results: dict[tuple[str, Work], list[Timing]], name: str, kind: Work) -> list[float]:
+    """How much faster than percuss, in every round."""
+    pairs = zip(results[name, kind], results[REFERENCE, kind])
+    return [mine.rate / theirs.rate for mine, theirs in pairs]
 
 
 def ratio(results: dict[tuple[str, Work], list[Timing]], name: str, kind: Work) -> float:
     """How much faster than percuss, as the median over the rounds."""
-    pairs = zip(results[name, kind], results[REFERENCE, kind])
-    return statistics.median(mine.rate / theirs.rate for mine, theirs in pairs)
+    return statistics.median(ratios(results, name, kind))
+
+
+def machine() -> str:
+    """The processor and its load."""
+    try:
+        lines = open("/proc/cpuinfo", encoding="utf-8").read().splitlines()
+    except OSError:
+        lines = []
+    fields = dict(line.split(":", 1) for line in lines[:40] if ":" in line)
+    fields = {name.strip(): value.strip() for name, value in fields.items()}
+    words = [fields.get("model name", "processor unknown")]
+    words += [f"{name} {fields[key]}" for name, key in (("family", "cpu family"), ("model", "model")) if key in fields]
+    words += ["AVX-512"] if "avx512f" in fields.get("flags", "") else []
+    return f"{', '.join(words)}; {os.cpu_count()} cores, load {load()}"
+
+
+def load() -> str:
+    """How many programs wanted a processor in the last minute."""
+    return f"{os.getloadavg()[0]:.1f}"

@@ -6,7 +6,7 @@ import os
 import shutil
 import subprocess
 import sys
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 PEERS = Path(__file__).resolve().parents[1]
@@ -15,20 +15,23 @@ TARGET = ROOT / "target" / "peers"
 
 ONE_POWER, ONE_LINEAR, BATCH = ("one", "power", 1), ("one", "linear", 1), ("batch", "power", 1)
 BATCH_ON_TWO = ("batch", "power", 2)
-"""Kinds of work: one chain or a batch, the law, the number of cores."""
+ONE_CAVITY, CAVITIES = ("one", "cavity", 1), ("batch", "cavity", 1)
+"""Kinds of work: one chain or a batch, the law, the number of cores. `cavity` is a complete run of percuss's default model."""
+CHAIN_WORKS = (ONE_POWER, ONE_LINEAR, BATCH, BATCH_ON_TWO)
+CAVITY_WORKS = (ONE_CAVITY, CAVITIES)
 
 
 @dataclass(frozen=True)
 class Program:
-    """A program that advances chains, and the kinds of work that it knows."""
+    """A program that advances chains or computes runs, and the kinds of work that it knows."""
 
     name: str
     command: list[str]
-    works: tuple[tuple[str, str, int], ...] = (ONE_POWER, ONE_LINEAR, BATCH, BATCH_ON_TWO)
+    works: tuple[tuple[str, str, int], ...] = CHAIN_WORKS
     tolerance: float = 1e-6
-    """How far an end may be from that of percuss, as a part of the largest displacement."""
+    """How far an end may be from that of percuss, as a part of the largest displacement; numbers of a run, as a part of themselves."""
     chains: int = 16
-    """Chains of the check."""
+    """Chains or runs of the check."""
     environment: dict[str, str] = field(default_factory=dict)
 
 
@@ -58,7 +61,7 @@ def built_percuss() -> list[Program]:
     if subprocess.run([cargo, "build", "--release", "--locked", "-p", "percuss-peers"], cwd=ROOT).returncode:
         raise Missing("cargo could not build it")
     target = ROOT / os.environ.get("CARGO_TARGET_DIR", "target")
-    return [Program("percuss", [str(target / "release" / "percuss-peers")])]
+    return [Program("percuss", [str(target / "release" / "percuss-peers")], CHAIN_WORKS + CAVITY_WORKS)]
 
 
 NO_TRAPS = ["-fno-math-errno", "-fno-trapping-math"]
@@ -73,14 +76,30 @@ IN_C = [
 ]
 
 
+# The default model: name and flags beyond those of all.
+CAVITY_IN_C = [
+    ("C, libm", []),
+    ("C, libmvec", ["-ffast-math"]),
+    ("C, libmvec, flow side by side", ["-ffast-math", "-DSIDE_BY_SIDE"]),
+]
+
+
 def compiled(name: str, power: str, flags: list[str], works: tuple[tuple[str, str, int], ...]) -> list[Program]:
+    return built_c(name, "chain.c", [f'-DPOWER="{power}"', *flags], works)
+
+
+def compiled_cavity(name: str, flags: list[str]) -> list[Program]:
+    return built_c(name, "cavity.c", flags, CAVITY_WORKS)
+
+
+def built_c(name: str, source: str, flags: list[str], works: tuple[tuple[str, str, int], ...]) -> list[Program]:
     compiler = os.environ.get("CC", "gcc")
     if not shutil.which(compiler):
         raise Missing(f"{compiler} is not installed (CC names another compiler)")
-    program = TARGET / name.lower().replace(",", "").replace(" ", "-")
+    program = TARGET / f"{Path(source).stem}-{name.lower().replace(',', '').replace(' ', '-')}"
     # Vectors of 512 bits where the processor has them: gcc would often rather take shorter ones.
-    common = ["-std=gnu11", "-O3", "-march=native", "-mprefer-vector-width=512", "-fopenmp", f'-DPOWER="{power}"']
-    said([compiler, *common, *flags, str(PEERS / "chain.c"), "-o", str(program), "-lm"])
+    common = ["-std=gnu11", "-O3", "-march=native", "-mprefer-vector-width=512", "-fopenmp"]
+    said([compiler, *common, *flags, str(PEERS / source), "-o", str(program), "-lm"])
     return [Program(name, [str(program)], works)]
 
 
@@ -110,12 +129,12 @@ def with_numpy() -> list[Program]:
     return [Program("NumPy", [str(python), str(PEERS / "chain_numpy.py")], (ONE_POWER, ONE_LINEAR, BATCH))]
 
 
-def with_numba() -> list[Program]:
+def with_numba(source: str, works: tuple[tuple[str, str, int], ...]) -> list[Program]:
     python = environment()
     installed(python, "numpy")
     installed(python, "numba")
     cache = {"NUMBA_CACHE_DIR": str(TARGET / "numba")}
-    return [Program("numba", [str(python), str(PEERS / "chain_numba.py")], environment=cache)]
+    return [Program("numba", [str(python), str(PEERS / source)], works, environment=cache)]
 
 
 def with_lammps() -> list[Program]:
@@ -134,18 +153,26 @@ def with_lammps() -> list[Program]:
     ]
 
 
-def programs() -> tuple[list[Program], dict[str, str]]:
-    """The programs that are there, and why others are not."""
+def programs(only: str | None) -> tuple[list[Program], dict[str, str]]:
+    """The programs that are there, of all works or only of `chains` or `cavity`, and why others are not."""
     TARGET.mkdir(parents=True, exist_ok=True)
     ready: list[Program] = []
     skipped: dict[str, str] = {}
     ways = [("percuss", built_percuss)]
-    ways += [(words[0], functools.partial(compiled, *words)) for words in IN_C]
-    ways += [("numba", with_numba), ("NumPy", with_numpy), ("LAMMPS", with_lammps)]
+    if only != "cavity":
+        ways += [(words[0], functools.partial(compiled, *words)) for words in IN_C]
+        ways += [("numba", functools.partial(with_numba, "chain_numba.py", CHAIN_WORKS))]
+        ways += [("NumPy", with_numpy), ("LAMMPS", with_lammps)]
+    if only != "chains":
+        ways += [(f"{words[0]}, runs", functools.partial(compiled_cavity, *words)) for words in CAVITY_IN_C]
+        ways += [("numba, runs", functools.partial(with_numba, "cavity_numba.py", CAVITY_WORKS))]
     for name, way in ways:
         try:
             ready += way()
         except Missing as missing:
             skipped[name] = missing.why
             print(f"{name}: skipped: {missing.why}", file=sys.stderr)
+    if only:
+        chosen = CAVITY_WORKS if only == "cavity" else CHAIN_WORKS
+        ready = [replace(program, works=tuple(work for work in program.works if work in chosen)) for program in ready]
     return ready, skipped

@@ -2,11 +2,13 @@
 
 import csv
 import statistics
+from collections.abc import Callable
 from pathlib import Path
 
 import measure
+import work
 from measure import RUNS, SWEEPS, Checked, Timing, Work
-from prepare import BATCH, BATCH_ON_TWO, ONE_LINEAR, ONE_POWER
+from prepare import BATCH, BATCH_ON_TWO, CAVITIES, ONE_CAVITY, ONE_LINEAR, ONE_POWER
 
 COLUMNS = [
     (ONE_POWER, "one chain, power law"),
@@ -14,6 +16,7 @@ COLUMNS = [
     (BATCH, "batch, power law"),
     (BATCH_ON_TWO, "batch, two cores"),
 ]
+RUN_COLUMNS = [(ONE_CAVITY, "one by one"), (CAVITIES, "sweep or batch")]
 Results = dict[tuple[str, Work], list[Timing]]
 
 
@@ -30,25 +33,59 @@ def cell(results: Results, name: str, kind: Work) -> str:
     return f"{number(middle)} ({number(lowest)} to {number(highest)}) x{measure.ratio(results, name, kind):.2f}"
 
 
-def text(checked: list[Checked], results: Results, skipped: dict[str, str], rounds: int) -> str:
+def run_cell(results: Results, name: str, kind: Work) -> str:
+    timings = results.get((name, kind))
+    if not timings:
+        return "-"
+    costs = [1e3 / t.rate for t in timings]
+    ratios = measure.ratios(results, name, kind)
+    middle, each = statistics.median(costs), 1e3 * statistics.median(t.each for t in timings)
+    spread = f"{min(costs):.2f} to {max(costs):.2f}"
+    return f"{middle:.2f} ({spread}) {each:.2f} ms x{statistics.median(ratios):.2f} ({min(ratios):.2f} to {max(ratios):.2f})"
+
+
+def rows_of(checked: list[Checked], columns: list[tuple[Work, str]], results: Results, one_cell: Callable) -> list[list[str]]:
+    """A line a program that knows some of the work, under the titles; nothing where none does."""
+    kinds = [kind for kind, _ in columns]
     off = {}
     for c in checked:
-        off[c.program.name] = max(off.get(c.program.name, 0.0), c.difference)
-    rows = [["", *(title for _, title in COLUMNS), "off by"]]
-    for name, difference in off.items():
-        rows.append([name, *(cell(results, name, kind) for kind, _ in COLUMNS), f"{difference:.0e}"])
-    rows.append([])
-    for name in (RUNS, SWEEPS):
-        rows.append([name, *(cell(results, name, kind) for kind, _ in COLUMNS), ""])
+        if c.work in kinds:
+            off[c.program.name] = max(off.get(c.program.name, 0.0), c.difference)
+    rows = [["", *(title for _, title in columns), "off by"]]
+    rows += [[name, *(one_cell(results, name, kind) for kind in kinds), f"{difference:.0e}"] for name, difference in off.items()]
+    return rows if off else []
+
+
+def aligned(rows: list[list[str]]) -> list[str]:
     widths = [max(len(row[i]) for row in rows if row) for i in range(len(rows[0]))]
     lines = ["  ".join(word.ljust(width) for word, width in zip(row, widths)).rstrip() for row in rows]
     lines.insert(1, "-" * max(map(len, lines)))
-    lines += [
-        "",
-        f"Million elements times steps a second: median (range) of {rounds} rounds, and the ratio to percuss of the same rounds.",
-        "One core: of processor time. Two cores: by the clock. Off by: largest difference of an end from percuss's, as a part of the largest displacement.",
-        "The two last rows are percuss's full runs of the same case (large strain, contact, border shear, energy balance; powers only where material flows).",
-    ]
+    return lines
+
+
+def text(checked: list[Checked], results: Results, skipped: dict[str, str], rounds: int) -> str:
+    lines = []
+    if rows := rows_of(checked, COLUMNS, results, cell):
+        rows.append([])
+        for name in (RUNS, SWEEPS):
+            rows.append([name, *(cell(results, name, kind) for kind, _ in COLUMNS), ""])
+        lines += aligned(rows)
+        lines += [
+            "",
+            f"Million elements times steps a second: median (range) of {rounds} rounds, and the ratio to percuss of the same rounds.",
+            "One core: of processor time. Two cores: by the clock. Off by: largest difference of an end from percuss's, as a part of the largest displacement.",
+            "The two last rows are percuss's full runs of the same case (large strain, contact, border shear, energy balance; powers only where material flows).",
+            "",
+        ]
+    if rows := rows_of(checked, RUN_COLUMNS, results, run_cell):
+        lines += aligned(rows)
+        lines += [
+            "",
+            f"Complete runs of the default model, {work.SLOWEST_M_S:g} to {work.FASTEST_M_S:g} m/s: ns of processor time an element and step, median (range)",
+            f"of {rounds} rounds; ms a run; speed over percuss's in the same rounds (range). Off by: largest difference of depth, velocity, time to rest or steps",
+            "from percuss's, as a part of each.",
+            "",
+        ]
     busy = [t.share for timings in results.values() for t in timings]
     if statistics.median(busy) < 0.9:
         lines.append(f"Others used this machine: programs had {statistics.median(busy):.0%} of their cores. Figures by the clock do not count.")

@@ -1,4 +1,4 @@
-"""The work: chains of masses and springs, written to a file that every program reads."""
+"""The work: chains of masses and springs, or runs of percuss's default model, written to a file that every program reads."""
 
 import math
 from dataclasses import dataclass
@@ -45,6 +45,24 @@ def write(path: Path, chains: int, steps: int) -> None:
     lines += [
         f"{s.mass_kg!r} {s.length_m!r} {s.stiffness_n!r} {s.coefficient_n!r} {s.exponent!r}" for s in rows
     ]
-    spacing = (FASTEST_M_S - SLOWEST_M_S) / chains
-    lines += [repr(SLOWEST_M_S + (chain + 0.5) * spacing) for chain in range(chains)]
+    lines += map(repr, speeds(chains))
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def speeds(count: int) -> list[float]:
+    """Impact velocities, evenly spaced [m/s]."""
+    spacing = (FASTEST_M_S - SLOWEST_M_S) / count
+    return [SLOWEST_M_S + (i + 0.5) * spacing for i in range(count)]
+
+
+# The same bodies without a constraint factor, a line each: density, Young's modulus, Poisson's ratio, coefficient and exponent of the power law, in SI.
+COPPER = (8500.0, 114e9, 0.34, 443e6, 0.1)
+ALUMINIUM = (2780.0, 70e9, 0.33, 776e6, 0.096)
+ROD_M, DIAMETER_M, PLATE_M = 12.74e-3, 4.8e-3, 25e-3
+
+
+def write_runs(path: Path, runs: int) -> None:
+    """Writes the elements of rod and plate and the number of runs; length and diameter of the rod and thickness of the plate [m]; their
+    materials; then the impact velocity of every run [m/s]."""
+    rows = [(ROD, COLUMN, runs), (ROD_M, DIAMETER_M, PLATE_M), COPPER, ALUMINIUM, *((speed,) for speed in speeds(runs))]
+    path.write_text("".join(" ".join(map(repr, row)) + "\n" for row in rows), encoding="utf-8")

@@ -1,7 +1,8 @@
 //! percuss in the benchmark against other programs: see `benches/peers/README.md`.
 //!
-//! `percuss-peers PROBLEM one|batch power|linear THREADS END` advances the chains of a problem and writes where they end; `percuss-peers CASE sweep N THREADS` and
-//! `percuss-peers CASE runs N 1` compute runs of a case to rest. All print seconds by the clock and of the processor; runs then print their elements times steps.
+//! `percuss-peers PROBLEM one|batch power|linear THREADS END` advances the chains of a problem and writes where they end; with `cavity` it computes runs of the
+//! default model. `percuss-peers CASE sweep N THREADS` and `percuss-peers CASE runs N 1` compute runs of a case to rest. All print seconds by the clock and of the
+//! processor; runs then print their elements times steps.
 
 mod kernel;
 mod problem;
@@ -9,6 +10,8 @@ mod runs;
 
 use std::{env, error::Error, fs, process::ExitCode, time::Instant};
 
+use percuss::Scenario;
+use runs::End;
 use rustix::time::{ClockId, clock_gettime};
 
 /// What every part of this program fails with.
@@ -32,13 +35,11 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, f64, f64) {
 fn run(words: &[&str]) -> Outcome<()> {
     match *words {
         [case, what @ ("sweep" | "runs"), count, threads] => {
-            let scenarios = runs::scenarios(case, count.parse()?)?;
-            let pool = threads_of(threads)?;
-            let (work, clock, processor) = timed(|| match what {
-                "sweep" => pool.install(|| runs::side_by_side(&scenarios)),
-                _ => runs::one_by_one(&scenarios),
-            });
-            println!("{clock:.9} {processor:.9} {}", work?);
+            complete(&runs::scenarios(case, count.parse()?)?, what, threads)?;
+        }
+        [problem, together, "cavity", threads, end] => {
+            let ends = complete(&runs::of_cavity(problem)?, together, threads)?;
+            write(end, ends.as_flattened())?;
         }
         [problem, together, law, threads, end] => {
             let problem = problem::read(problem)?;
@@ -46,12 +47,32 @@ fn run(words: &[&str]) -> Outcome<()> {
             let advance = kernel::choose(together, law)?;
             let (ends, clock, processor) = timed(|| pool.install(|| advance(&problem)));
             println!("{clock:.9} {processor:.9}");
-            let bytes: Vec<u8> = ends.iter().flat_map(|u| u.to_le_bytes()).collect();
-            fs::write(end, bytes)?;
+            write(end, &ends)?;
         }
         _ => return Err("usage: percuss-peers PROBLEM one|batch power|linear THREADS END".into()),
     }
     Ok(())
+}
+
+/// Computes complete runs, side by side or one by one, and prints how long that took.
+fn complete(scenarios: &[Scenario], together: &str, threads: &str) -> Outcome<Vec<End>> {
+    let pool = threads_of(threads)?;
+    let compute = |scenarios| match together {
+        "sweep" | "batch" => pool.install(|| runs::side_by_side(scenarios)),
+        _ => runs::one_by_one(scenarios),
+    };
+    // The first run reads tables that all others share.
+    compute(&scenarios[..scenarios.len().min(1)])?;
+    let (ends, clock, processor) = timed(|| compute(scenarios));
+    let ends = ends?;
+    let amount = runs::amount(scenarios, &ends);
+    println!("{clock:.9} {processor:.9} {amount}");
+    Ok(ends)
+}
+
+fn write(path: &str, numbers: &[f64]) -> Outcome<()> {
+    let bytes: Vec<u8> = numbers.iter().flat_map(|u| u.to_le_bytes()).collect();
+    Ok(fs::write(path, bytes)?)
 }
 
 fn threads_of(count: &str) -> Outcome<rayon::ThreadPool> {
