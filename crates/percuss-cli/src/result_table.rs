@@ -22,15 +22,23 @@ const BAR: f64 = 30.0;
 /// Fraction of the initial energy below which a line is rounding error.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// Results, energy distribution, balances, results of other models, and warnings.
+/// What is said where an axisymmetric answer is to follow.
+const FIRST: &str = "a first answer in one dimension; the number to use, of the axisymmetric model, follows at the end";
+
+/// Results, energy distribution, balances, results of other models, and warnings; `is_first` where an axisymmetric answer is to follow.
 pub fn text(
     scenario: &Scenario,
     result: &RunResult,
     record: &ResultRecord,
     others: Option<(String, Vec<Row>)>,
+    is_first: bool,
 ) -> String {
     let mut text = String::new();
     head(scenario, result, record, &mut text);
+    if is_first {
+        text += &paragraph(FIRST);
+    }
+    text.push('\n');
     let mut outcome = result_rows::outcome_rows(scenario, result, record, result_rows::DIGITS);
     if let Some((_, ended)) = outcome.first_mut() {
         *ended = bold(&ended);
@@ -82,7 +90,6 @@ fn head(scenario: &Scenario, result: &RunResult, record: &ResultRecord, text: &m
     for choice in choices.into_iter().flatten() {
         *text += &paragraph(choice);
     }
-    text.push('\n');
 }
 
 fn energy(numerics: &Numerics, text: &mut String) {

@@ -133,7 +133,8 @@ defaults! { AxiOptions, axi_in_schema {
     /// Time steps after which a run is ended.
     max_steps: u64 = MAX_STEPS;
     depending damage: "`true` where the rear face of the target is free, otherwise `false`";
-    depending erode_failed: "`true` where the rear face of the target is free and damage accumulates, otherwise `false`";
+    depending erode_failed: "`true` where damage accumulates in a target with a free rear face and less than 5 projectile diameters thick, \
+        otherwise `false`";
     depending spall: "`false`, and `true` where `spall_strength` is given";
 } }
 
@@ -150,9 +151,12 @@ impl AxiOptions {
     }
 
     /// Whether material that fails is taken out.
-    pub fn erodes_failed(&self, rear_face: Option<RearFaceCondition>) -> bool {
-        let from_plate = rear_face == Some(RearFaceCondition::Free) && self.damages(rear_face);
-        self.erode_failed.unwrap_or(from_plate)
+    ///
+    /// A crater far from the rear face becomes too deep where it is: its material is enclosed, and carries pressure after it failed.
+    pub fn erodes_failed(&self, rear_face: Option<RearFaceCondition>, is_thick: bool) -> bool {
+        let may_plug = rear_face == Some(RearFaceCondition::Free) && !is_thick;
+        self.erode_failed
+            .unwrap_or(may_plug && self.damages(rear_face))
     }
 
     /// Whether anything makes material fail.

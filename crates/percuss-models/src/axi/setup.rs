@@ -14,6 +14,7 @@ use crate::{
     material::Material,
     options::{ContactKind, Edge},
     problem::{Nose, RearFaceCondition},
+    regime::THICK,
     scenario::{Rod, TargetBody},
     solid::{Behaviour, Law},
     solver::{Control, Particle, estimate::expected_depth},
@@ -136,11 +137,16 @@ fn law(material: &Material, scenario: &Scenario) -> Law {
             .map(|damage| damage.prepare(material)),
         band_width: options.band_width().si(),
         failure_strain: options.failure_strain,
-        erode_failed: options.erodes_failed(rear_face),
+        erode_failed: options.erodes_failed(rear_face, is_thick(scenario)),
         erosion_strain: options.erosion_strain,
         axisymmetric: true,
         ..Law::of(material, &behaviour)
     }
+}
+
+fn is_thick(scenario: &Scenario) -> bool {
+    let thickness = scenario.target_thickness();
+    thickness.is_none_or(|thickness| thickness >= THICK * scenario.projectile.diameter)
 }
 
 /// Number of particles of a case before its nose is cut to shape, without building it.

@@ -29,7 +29,7 @@ pub(super) fn page<'a>(
             [
                 "Relative error = depth by the model / depth by the reference - 1: positive where the model is too deep.",
                 "The reference is the model axi on three meshes, by the rule of the axisymmetric answer: monotone depths with an observed order \
-                 of 0.5 to 3 are extrapolated in the cell size, otherwise the finest mesh counts. A reference whose uncertainty exceeds 15 % \
+                 of 1 to 3 are extrapolated in the cell size, otherwise the finest mesh counts. A reference whose uncertainty exceeds 15 % \
                  is left out.",
                 "A case is left out of all numbers if its reference fails this check or if a shorter rod penetrates deeper.",
                 "Medians and percentiles are over cases.",

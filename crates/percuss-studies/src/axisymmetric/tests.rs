@@ -19,7 +19,7 @@ fn of_order(order: f64) -> MeshLimit {
 
 #[test]
 fn a_power_of_the_cell_size_gives_its_limit() {
-    for order in [0.6, 1.0, 1.5, 2.0] {
+    for order in [1.001, 1.5, 2.0] {
         let limit = of_order(order);
         assert!((limit.value - 2.0).abs() < 1e-9, "{order}: {limit:?}");
         assert!((limit.order.unwrap() - order).abs() < 1e-6);
@@ -30,6 +30,14 @@ fn a_power_of_the_cell_size_gives_its_limit() {
     let limit = of_order(2.8);
     assert!((limit.value - 2.0).abs() < limit.uncertainty);
     assert!((limit.value - 2.0).abs() > 1e-4);
+}
+
+#[test]
+fn low_orders_are_not_extrapolated_and_the_interval_holds_their_limit() {
+    let found = of_order(0.6);
+    let error = 0.8 * 6.0_f64.powf(-0.6);
+    assert_eq!((found.value, found.order), (2.0 - error, None));
+    assert!((found.uncertainty - error).abs() < 1e-9, "{found:?}");
 }
 
 #[test]

@@ -1,6 +1,9 @@
 //! Tables of all models at many velocities: one row per velocity, one column per model, split into blocks of the terminal's width.
 
-use percuss::{compare::Comparison, outcome::BandQuantity, units::significant};
+use percuss::{
+    axisymmetric::MODEL, compare::Comparison, outcome::BandQuantity, summary::ResultRecord,
+    units::significant,
+};
 use percuss_report::table::{Table, number};
 
 use super::{
@@ -87,8 +90,12 @@ fn versus_velocity(comparison: &Comparison, quantity: BandQuantity, models: &[&s
         })
         .each(models, |rows, model| {
             let values = values(model);
-            rows.numbers(model_heading(comparison, model), "", |&i| {
+            let rows = rows.numbers(model_heading(comparison, model), "", |&i| {
                 number(values[i], 4)
+            });
+            let off = uncertainties(comparison, quantity, model);
+            rows.when(off.iter().any(Option::is_some), |rows| {
+                rows.numbers("±", "", |&i| number(off[i], 2))
             })
         });
     let mut text = heading(&format!("{} [{}]", quantity.describe(), quantity.unit()));
@@ -110,6 +117,16 @@ fn versus_velocity(comparison: &Comparison, quantity: BandQuantity, models: &[&s
         text += &blocks(&off.table());
     }
     text
+}
+
+/// Half widths of the discretisation uncertainty at the velocities; only the axisymmetric model states it.
+fn uncertainties(comparison: &Comparison, quantity: BandQuantity, model: &str) -> Vec<Option<f64>> {
+    let of = |record: &ResultRecord| {
+        let band = record.band.as_ref();
+        let band = band.filter(|band| model == MODEL && band.quantity == quantity)?;
+        Some(band.high - record.value(quantity)?)
+    };
+    comparison.of_model(model).map(of).collect()
 }
 
 /// Ballistic limits, one row per model.

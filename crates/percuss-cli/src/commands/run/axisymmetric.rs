@@ -104,7 +104,7 @@ pub(super) fn text(
     let mut text = format!(
         "\n{}\n{}",
         bold(format!(
-            "{} ({})",
+            "{} ({}): the number to use",
             headline.join(" "),
             meshes(answer.meshes.len())
         )),

@@ -343,7 +343,9 @@ impl Run {
         if follows {
             record.expected_error = None;
         }
-        Ok(result_table::text(scenario, result, &record, others))
+        Ok(result_table::text(
+            scenario, result, &record, others, follows,
+        ))
     }
 }
 

@@ -48,7 +48,7 @@ With --out DIR the report is written as one HTML page and as Markdown with its
 figures, and the numbers as CSV and Parquet.
 
 A reference depth needs three meshes. Where it is monotone with an observed
-order of 0.5 to 3 it is extrapolated; otherwise the finest mesh counts. With an
+order of 1 to 3 it is extrapolated; otherwise the finest mesh counts. With an
 uncertainty above 15 %, or a depth below that of a shorter rod, it is refused.
 Cases whose reference fails are listed with the reason and left out of all
 numbers.
