@@ -23,7 +23,7 @@ use crate::{
     Refusal,
     material::MaterialClass,
     outcome::BandQuantity,
-    regime::{ProjectileRegime, Regime, TargetKind},
+    regime::{ProjectileRegime, Regime, STRENGTH_STRAIN, TargetKind},
     scenario::{Scenario, TargetBody},
     units::significant,
 };
@@ -70,6 +70,16 @@ pub struct ValidityDomain {
 
 /// Part of a plate's thickness beyond which a depth depends on the rear face.
 const BACK_FACE_DEPTH: f64 = 0.8;
+
+/// Whether the struck material never yields.
+fn never_yields(scenario: &Scenario) -> bool {
+    match &scenario.target {
+        TargetBody::Layers { layers, .. } => {
+            layers[0].material.flow_stress(STRENGTH_STRAIN).is_none()
+        }
+        TargetBody::RigidWall | TargetBody::ConstantPressure(_) => false,
+    }
+}
 
 impl ValidityDomain {
     /// Whether a model with this validity predicts the perforation of a target.
@@ -150,12 +160,20 @@ impl ValidityDomain {
         if !self.projectile.contains(&regime.projectile) {
             match neighbour {
                 None => {
-                    return Applicability::refused(format!(
+                    let reason = Refusal::new(format!(
                         "it takes {} projectiles, and this one is {}: {}",
                         list(self.projectile.iter().map(|regime| regime.describe())),
                         regime.projectile.describe(),
                         regime.because
                     ));
+                    let may_be_rigid = self.projectile.contains(&ProjectileRegime::Rigid);
+                    return Applicability::refused(if may_be_rigid && never_yields(scenario) {
+                        reason.with_remedy(
+                            "a projectile is rigid on a target that never yields where its material has `strength.elastic = {}`",
+                        )
+                    } else {
+                        reason
+                    });
                 }
                 Some(neighbour) => warnings.push(format!(
                     "model taken at the edge of its regime: the projectile is {} rather than {}: {}",

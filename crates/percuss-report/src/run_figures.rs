@@ -45,7 +45,8 @@ pub fn run_charts(
     cells: Option<[usize; 2]>,
 ) -> Result<Vec<Chart>, ReportError> {
     let history = history_of(result)?;
-    let caption = caption(scenario, Some(scenario.impact_velocity));
+    let case = caption(scenario, Some(scenario.impact_velocity));
+    let caption = format!("{case}; model {}", result.model);
     let (first, last) = (
         &history.samples[0],
         &history.samples[history.samples.len() - 1],

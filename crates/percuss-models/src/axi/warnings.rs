@@ -84,7 +84,13 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
     let options = &run.scenario.options.axi;
     let free = run.scenario.rear_face() == Some(RearFaceCondition::Free);
     let cannot_fail = layers_that_cannot_fail(run.scenario);
-    if free && options.damage.is_none() && !cannot_fail.is_empty() {
+    let brittle = unlike(run.scenario, |material| material.fracture.is_some());
+    if !brittle.is_empty() {
+        warnings.push(format!(
+            "{} is brittle, and cannot crack in `axi`: these are the numbers of a body that stays whole. `particles` breaks it",
+            brittle.join(", ")
+        ));
+    } else if free && options.damage.is_none() && !cannot_fail.is_empty() {
         warnings.push(format!(
             "the target can be perforated by stretching and thinning alone, which takes more energy than failure: {} has no `damage` in its record. Give it, or `axi.failure_strain`",
             cannot_fail.join(", ")

@@ -10,6 +10,8 @@ pub const HIGHEST_ORDER: f64 = 2.0;
 /// Lowest order of the error of a single mesh, and of an extrapolation: at lower orders it makes depths worse, by up to 60 % in the cases of
 /// the benchmark.
 const FIRST: f64 = 1.0;
+/// Error of an observed order by rounding.
+const ROUNDING: f64 = 1e-6;
 /// Least uncertainty, as a part of what the impact changed.
 const LEAST: f64 = 0.01;
 
@@ -44,7 +46,7 @@ pub fn limit(meshes: &[OnMesh], untouched: f64, resolution: f64) -> Option<MeshL
         [.., coarse, _, _] => order([*coarse, medium, fine]).map(|order| {
             let value = extrapolate(medium, fine, order.min(HIGHEST_ORDER));
             let change = (value - fine.value).abs();
-            if order < FIRST {
+            if order < FIRST - ROUNDING {
                 MeshLimit {
                     value: fine.value,
                     uncertainty: change,

@@ -103,22 +103,11 @@ pub(super) fn text(
     };
     let mut text = format!(
         "\n{}\n{}",
-        bold(format!(
-            "{} ({}): the number to use",
-            headline.join(" "),
-            meshes(answer.meshes.len())
-        )),
+        bold(format!("{}: the number to use", headline.join(" "))),
         result_table::rows(&axisymmetric_rows::rows(answer, Some(record)))
     );
     if let Some(note) = &answer.note {
         text += &paragraph(note);
     }
     text
-}
-
-fn meshes(count: usize) -> String {
-    match count {
-        1 => "1 mesh".to_owned(),
-        _ => format!("{count} meshes"),
-    }
 }
