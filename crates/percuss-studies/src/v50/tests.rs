@@ -301,7 +301,7 @@ fn a_file_is_read_and_what_is_wrong_in_it_has_its_place() {
         (
             "impact_velocity_m_s:perforated\n184:no\n",
             1,
-            "impact_velocity_m_s:perforated",
+            "",
             "separated by commas, semicolons or tabs",
         ),
         ("impact_velocity_m_s\n184\n", 1, "", "lacks `perforated`"),
