@@ -15,6 +15,12 @@ fn the_book_builds_and_every_link_leads_somewhere() {
     let html = out.path().join("html");
     let pages = files(&html.join("docs"), "html");
     assert!(pages.len() > 30, "{} pages", pages.len());
+    let index = fs::read_dir(&html).unwrap();
+    let mut index = index.map(|entry| entry.unwrap().file_name());
+    let is_index = |name: &std::ffi::OsString| name.to_string_lossy().starts_with("searchindex");
+    assert!(index.any(|name| is_index(&name)), "no index for the search");
+    let page = fs::read_to_string(&pages[0]).unwrap();
+    assert!(page.contains("id=\"mdbook-searchbar\""), "no box for the search");
     let mut broken = Vec::new();
     for page in pages {
         let text = fs::read_to_string(&page).unwrap();

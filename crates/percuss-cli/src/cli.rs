@@ -35,7 +35,9 @@ balance, and the assumptions behind the numbers.";
 const AFTER_HELP: &str = "\
 Examples:
   percuss new my-case                      write my-case/scenario.toml
-  percuss run my-case/scenario.toml        run it
+  percuss run my-case/scenario.toml        run it, with the axisymmetric depth
+  percuss run CASE.toml --model axi        run by the axisymmetric model alone
+  percuss run CASE.toml --json             print one JSON object for scripts
   percuss compare my-case/scenario.toml    compare the results of all models
   percuss limit my-case/scenario.toml      find its ballistic limit
   percuss sweep my-sweep.toml --out rows   vary a case; one row per run

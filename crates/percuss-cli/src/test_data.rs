@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use percuss::{
-    experiments::{self, Experiment},
+    experiments::{self, Experiment, TestFile},
     material::Library,
 };
 
@@ -12,8 +12,14 @@ use crate::{diagnostic, failure::Failure};
 /// Value that selects the tests of the program.
 pub const BUILT_IN: &str = "builtin";
 
-/// Says which columns of a file nothing reads.
-pub fn note_unread(path: &Path, columns: &[String]) {
+/// Says which columns of a file are read by other names or units, and which nothing reads.
+pub fn note_columns<T>(path: &Path, file: &TestFile<T>) {
+    if !file.read_as.is_empty() {
+        let read_as = file.read_as.join("; ");
+        let text = format!("note: columns of `{}`: {read_as}\n", path.display());
+        diagnostic::print(&text);
+    }
+    let columns = &file.unread_columns;
     if !columns.is_empty() {
         let what = match columns.len() {
             1 => "the column",
@@ -43,7 +49,7 @@ pub fn read(
             (experiments::built_in().to_vec(), own)
         } else {
             let read = experiments::read(path, library)?;
-            note_unread(path, &read.unread_columns);
+            note_columns(path, &read);
             let name = format!("{} ({})", path.display(), read.tests.len());
             (read.tests, name)
         };

@@ -15,8 +15,9 @@ use crate::{
 /// Spaces between columns.
 const SPACES: u16 = 2;
 
-/// Tables of a validation; `in_detail` adds tables by source, target and projectile.
-pub fn text(validation: &Validation, files: &[String], in_detail: bool) -> String {
+/// Tables of a validation by the models that were named; those of one model come with tables by source, target and projectile.
+pub fn text(validation: &Validation, files: &[String], named: &[String]) -> String {
+    let in_detail = named.len() == 1;
     let mut text = format!(
         "{}\n{}\n",
         bold("Validation against tests"),
@@ -42,8 +43,13 @@ pub fn text(validation: &Validation, files: &[String], in_detail: bool) -> Strin
         }
     }
     if !in_detail {
-        let hint = "`--model NAME` prints tables of a model by source, target and more; `--out DIR` writes the whole report with figures. `axi` takes minutes and runs only when it is named.";
-        text += &format!("\n{}\n", wrap(hint, width(), 0));
+        let hint = "`--model NAME` prints tables of a model by source, target and more; `--out DIR` writes the whole report with figures.";
+        let of_axi = " `axi` takes minutes and runs only when it is named.";
+        let hint = match named.is_empty() {
+            true => format!("{hint}{of_axi}"),
+            false => hint.to_owned(),
+        };
+        text += &format!("\n{}\n", wrap(&hint, width(), 0));
     }
     text
 }

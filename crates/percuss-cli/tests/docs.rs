@@ -83,6 +83,37 @@ fn every_percuss_command_of_the_docs_is_one() {
     assert!(count >= 20, "{count}");
 }
 
+/// A reader who types the commands of a page keeps a clean clone.
+#[test]
+fn what_the_commands_of_the_docs_write_is_ignored() {
+    let ignored = fs::read_to_string(root().join(".gitignore")).unwrap();
+    let is_ignored = |place: &str| {
+        ignored.lines().any(|line| {
+            let pattern = line.trim_start_matches('/');
+            match pattern.strip_suffix('*') {
+                Some(start) => place.starts_with(start),
+                None => pattern == place || place.starts_with(&format!("{pattern}/")),
+            }
+        })
+    };
+    let mut count = 0;
+    for (page, text) in pages() {
+        let lines = blocks(&text, "sh").join("\n").replace("\\\n", " ");
+        for line in lines.lines().filter(|line| line.starts_with("percuss ")) {
+            let words = words(line);
+            let mut outs = words.iter().zip(&words[1..]);
+            let out = outs.find(|(word, _)| ["--out", "new"].contains(&word.as_str()));
+            let Some((_, place)) = out else { continue };
+            if place.starts_with(['/', '~']) || place.starts_with("OUT") {
+                continue;
+            }
+            assert!(is_ignored(place), "{page}: `{place}` is not in .gitignore");
+            count += 1;
+        }
+    }
+    assert!(count >= 15, "{count}");
+}
+
 /// Code within the text of a page.
 fn code_spans(text: &str) -> Vec<String> {
     let mut is_code = false;

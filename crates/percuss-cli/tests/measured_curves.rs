@@ -96,13 +96,15 @@ fn the_history_of_a_run_is_its_own_measured_curve() {
 
 #[test]
 fn models_with_histories_are_compared_with_the_curves() {
-    let table = "[[measured_curves]]\nname = 'load cell'\ncsv = '''\ntime_ms,contact_force_lbf,remark\n0,0,a\n0.01,2000,b\n'''\n";
+    let table = "[[measured_curves]]\nname = 'load cell'\ncsv = '''\n# channel 2\n# 1 MHz\nt (msec),Force_lbf,remark\n0,0,a\n0.01,2000,b\n'''\n";
     let folder = folder_with(&[("shot.toml", &case(table))]);
     let path = folder.path();
     let words = ["compare", "shot.toml", "--fast", "--out", "out"];
     let text = ok(path, &words);
     assert!(text.contains("differences from measured curves"), "{text}");
     assert!(text.contains("load cell: contact force"), "{text}");
+    let read = "`t (msec)` as `time_us`, converted; `Force_lbf` as `contact_force_kn`, converted";
+    assert!(flat(&text).contains(read), "{text}");
     let figure = fs::read_to_string(path.join("out/measured-curve-1.svg")).unwrap();
     assert!(figure.contains("chain, RMS difference") && figure.contains("fdm, RMS difference"));
     let results = json(&fs::read_to_string(path.join("out/compare.json")).unwrap());
@@ -176,14 +178,14 @@ fn a_wrong_table_is_refused_with_its_place() {
         (
             "time_us,time_ms,strain\n0,0,0\n1,1,1\n",
             "rod.csv:1:9",
-            "two columns are of `time`",
+            "two columns are of `time`: `time_us` and `time_ms`",
             "remove one",
         ),
         (
             "stress_mpa\n0\n1\n",
             "rod.csv",
             "the table has no column of times",
-            "`time_us`",
+            "lines before the names of the columns start with `#`",
         ),
         (
             "time_us,channel\n0,0\n1,1\n",

@@ -143,7 +143,7 @@ fn wrong_files_are_refused_with_place_and_remedy() {
     for (tests, parts) in [
         (
             TESTS.replace("diameter_mm,", "").replace(",7.62", ""),
-            ["the first line lacks `diameter_mm`", "required are `id`"],
+            ["the first line lacks `diameter_mm`", "required are `kind`"],
         ),
         (
             TESTS.replace(",123,rigid-wall,19", ",fast,rigid-wall,19"),
@@ -165,8 +165,11 @@ fn wrong_files_are_refused_with_place_and_remedy() {
             ["a second test is named `one`", "tests.csv:3:"],
         ),
         (
-            TESTS.replace("id,", "ID,"),
-            ["no column is named `ID`", "did you mean `id`?"],
+            TESTS.replace("diameter_mm,", "diametr_mm,"),
+            [
+                "no column is named `diametr_mm`",
+                "did you mean `diameter_mm`?",
+            ],
         ),
         (String::new(), ["the first line lacks", "help: "]),
     ] {

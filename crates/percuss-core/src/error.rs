@@ -318,6 +318,20 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate.to_owned())
 }
 
+/// The name that another one is with a letter or two wrong; `None` for short names, of which every word is a neighbour.
+pub fn misspelt<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if name.len() > LONGEST_MISTYPED {
+        return None;
+    }
+    let distances = candidates.into_iter().map(|candidate| {
+        let distance = strsim::damerau_levenshtein(name, candidate);
+        (distance, candidate)
+    });
+    let near = distances.filter(|(distance, candidate)| *distance <= candidate.len() / 5);
+    let nearest = near.min_by_key(|(distance, _)| *distance);
+    nearest.map(|(_, candidate)| candidate)
+}
+
 /// Bytes that two names have in common at their start.
 fn common_start(a: &str, b: &str) -> usize {
     a.bytes().zip(b.bytes()).take_while(|(a, b)| a == b).count()

@@ -89,6 +89,8 @@ pub struct MeasuredCurve {
     pub points: Vec<(f64, f64)>,
     /// Columns of its table that nothing reads.
     pub unread_columns: Vec<String>,
+    /// Columns of its table with other names or units than those of the program, each as `` `F (lbf)` as `contact_force_kn`, converted ``.
+    pub read_as: Vec<String>,
     /// Standard uncertainty of the values, in their SI unit.
     pub uncertainty: Option<f64>,
     /// Correlation time of differences from a model [s].

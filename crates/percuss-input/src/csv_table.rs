@@ -1,13 +1,18 @@
 //! Tables of comma-separated values: the fields of a row by name, and errors that name their place.
 
+mod columns;
 pub mod header;
+pub mod names;
 
 use std::ops::Range;
 
 use crate::{
     error::{InputError, Subject, nearest},
-    units::shorten,
+    units::{ColumnUnit, ResultUnit, shorten},
 };
+
+pub(crate) use columns::REMARKS_HELP;
+pub use columns::{KnownColumn, Recognised, recognise};
 
 /// A table and which column stands where.
 #[derive(Debug)]
@@ -16,8 +21,14 @@ pub struct CsvTable<'a> {
     pub file: &'a str,
     /// Its text.
     pub text: &'a str,
-    /// Names of its columns.
+    /// Names of its columns; those of the program where [`CsvTable::adopt`] has replaced them.
     pub header: Vec<String>,
+    /// Names of its columns as written.
+    written: Vec<String>,
+    /// Units of its columns, and those of their names, where both differ.
+    conversions: Vec<Option<(ColumnUnit, ResultUnit)>>,
+    /// First byte of the line with the names of the columns.
+    start: usize,
     /// What stands between its columns.
     pub separator: Separator,
 }
@@ -37,19 +48,33 @@ pub enum Separator {
 }
 
 impl Separator {
-    /// That of a text: the first line names the columns, in which units and names are without commas wherever another one separates them.
+    /// That of a text whose first line names the columns: the first that separates it and the next one into as many fields. A comma can stand in
+    /// a name, as in `velocity, m/s`, or before decimals.
     fn of(text: &str) -> Self {
-        let first = text.lines().find(|line| !line.trim().is_empty());
-        let first = first.unwrap_or_default();
-        if first.contains(',') {
-            Self::Comma
-        } else if first.contains(';') {
-            Self::Semicolon
-        } else if first.contains('\t') {
-            Self::Tab
-        } else {
-            Self::Comma
-        }
+        let mut lines = text.lines().filter(|line| !line.trim().is_empty());
+        let (first, second) = (lines.next().unwrap_or_default(), lines.next());
+        let fields = |line: &str, separator: Self| {
+            let quoted = |c: char, inside: &mut bool| {
+                *inside ^= c == '"';
+                Some(c as u32 == u32::from(separator.byte()) && !*inside)
+            };
+            let marks = line.chars().scan(false, |inside, c| quoted(c, inside));
+            marks.filter(|is_mark| *is_mark).count()
+        };
+        let fits = |separator: &Self| {
+            let count = fields(first, *separator);
+            count > 0 && second.is_none_or(|line| fields(line, *separator) == count)
+        };
+        let splits = |separator: &Self| fields(first, *separator) > 0;
+        let found = [Self::Tab, Self::Semicolon, Self::Comma]
+            .into_iter()
+            .find(fits);
+        let found = found.or_else(|| {
+            [Self::Comma, Self::Semicolon, Self::Tab]
+                .into_iter()
+                .find(splits)
+        });
+        found.unwrap_or(Self::Comma)
     }
 
     const fn byte(self) -> u8 {
@@ -77,16 +102,20 @@ impl<'a> CsvTable<'a> {
         text: &'a str,
     ) -> Result<(Self, Vec<csv::StringRecord>), Box<InputError>> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let start = start_of_names(text);
         let mut table = CsvTable {
             file,
             text,
             header: Vec::new(),
-            separator: Separator::of(text),
+            written: Vec::new(),
+            conversions: Vec::new(),
+            start,
+            separator: Separator::of(&text[start..]),
         };
         let mut reader = csv::ReaderBuilder::new()
             .delimiter(table.separator.byte())
             .flexible(true)
-            .from_reader(text.as_bytes());
+            .from_reader(&text.as_bytes()[start..]);
         let parsed = reader.headers().cloned().and_then(|header| {
             let records: Result<Vec<csv::StringRecord>, csv::Error> = reader.records().collect();
             Ok((header, records?))
@@ -97,7 +126,40 @@ impl<'a> CsvTable<'a> {
         })?;
         records.retain(|record| record.iter().any(|field| !field.trim().is_empty()));
         table.header = header.iter().map(|name| name.trim().to_owned()).collect();
+        table.written = table.header.clone();
+        table.conversions = vec![None; table.header.len()];
         Ok((table, records))
+    }
+
+    /// Gives columns the names of the program; their numbers are converted to the units of these names.
+    pub fn adopt(&mut self, recognised: &Recognised, known: &[KnownColumn<'_>]) {
+        for (i, found) in recognised.columns.iter().enumerate() {
+            let Some((column, unit)) = found else {
+                continue;
+            };
+            let column = &known[*column];
+            column.name.clone_into(&mut self.header[i]);
+            self.conversions[i] = match (*unit, column.unit) {
+                (Some(from), Some(to)) if !from.is(to) => Some((from, to)),
+                _ => None,
+            };
+        }
+    }
+
+    /// Whether the table has a column of this name.
+    pub fn has(&self, column: &str) -> bool {
+        self.header.iter().any(|name| name == column)
+    }
+
+    /// The name of a column as written.
+    fn as_written<'b>(&'b self, column: &'b str) -> &'b str {
+        let at = self.header.iter().position(|name| name == column);
+        at.map_or(column, |at| &self.written[at])
+    }
+
+    /// Bytes of a name in the line that names the columns.
+    pub fn name_span(&self, index: usize) -> Range<usize> {
+        self.field_span(self.start, index)
     }
 
     /// Bytes of field `index` of the record that begins at `start`, its quotes included; at least one byte where there is one.
@@ -157,8 +219,11 @@ impl CsvRow<'_> {
 
     /// Text of a field that must not be empty.
     pub fn required(&self, column: &str) -> Result<String, Box<InputError>> {
-        self.optional(column)
-            .ok_or_else(|| self.error(column, format!("`{column}` is empty"), "write its value"))
+        self.optional(column).ok_or_else(|| {
+            let column_as_written = self.table.as_written(column);
+            let message = format!("`{}` is empty", shorten(column_as_written));
+            self.error(column, message, "write its value")
+        })
     }
 
     /// A number, unless the field is empty.
@@ -172,7 +237,13 @@ impl CsvRow<'_> {
             Separator::Semicolon | Separator::Tab => text.replacen(',', ".", 1).parse(),
         };
         match parsed {
-            Ok(number) if number.is_finite() => Ok(Some(number)),
+            Ok(number) if number.is_finite() => {
+                let at = self.table.header.iter().position(|name| name == column);
+                let conversion = at.and_then(|at| self.table.conversions[at]);
+                Ok(Some(
+                    conversion.map_or(number, |(from, to)| to.of_si(from.to_si(number))),
+                ))
+            }
             _ => Err(self.error(
                 column,
                 format!("`{}` is no number", shorten(text)),
@@ -220,7 +291,8 @@ impl CsvRow<'_> {
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> Box<InputError> {
-        self.table.error(self.span(column), column, message, help)
+        let written = self.table.as_written(column);
+        self.table.error(self.span(column), written, message, help)
     }
 
     /// Bytes of a field in the text of the file.
@@ -229,8 +301,27 @@ impl CsvRow<'_> {
             .record
             .position()
             .map_or(0, |position| position.byte() as usize);
-        let start = start.min(self.table.text.len());
+        let start = (self.table.start + start).min(self.table.text.len());
         let at = self.table.header.iter().position(|name| name == column);
         self.table.field_span(start, at.unwrap_or(0))
     }
+}
+
+/// First byte of the line that names the columns. Leading lines that start with `#` are remarks; the last of them names the columns where numbers
+/// follow it.
+fn start_of_names(text: &str) -> usize {
+    let (mut start, mut last_remark) = (0, None);
+    for line in text.split_inclusive('\n') {
+        let words = line.trim_start();
+        if let Some(remark) = words.strip_prefix('#') {
+            let names = remark.trim_start();
+            last_remark = (!names.is_empty()).then(|| start + line.len() - names.len());
+        } else if !words.is_empty() {
+            let first = words.split([',', ';', '\t']).next().unwrap_or_default();
+            let is_number = first.trim().replace(',', ".").parse::<f64>().is_ok();
+            return last_remark.filter(|_| is_number).unwrap_or(start);
+        }
+        start += line.len();
+    }
+    0
 }

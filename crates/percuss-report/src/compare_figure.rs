@@ -91,7 +91,7 @@ fn lines(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -
     const NONE: f64 = f64::NAN;
     let mut chart = LineChart::new(
         "compare",
-        format!("{} by model: {}", title(quantity), comparison.case),
+        format!("{} by model", title(quantity)),
         Axis::new("Impact velocity (m/s)"),
         axis(quantity),
     )
@@ -162,7 +162,7 @@ fn rows(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) ->
     };
     let mut chart = RowChart::new(
         "compare",
-        format!("{}{at} by model: {}", title(quantity), comparison.case),
+        format!("{}{at} by model", title(quantity)),
         axis(quantity),
     )
     .caption(note(scenario, comparison));

@@ -13,6 +13,8 @@ use crate::{
 
 /// Points of a smooth curve.
 const POINTS: u32 = 200;
+/// Largest relative difference of points that cannot be told from each other.
+const COINCIDE: f64 = 2e-3;
 
 /// Draws residual velocities of all models, their Lambert-Jonas curves, and measured values, as `limit`; `None` when no model has a
 /// limit. Models whose limit is an input have a dashed curve without points.
@@ -30,16 +32,17 @@ pub fn limit_chart(scenario: &Scenario, limits: &Limits) -> Option<Chart> {
     found().map(|(_, limit)| limit).chain(inputs()).next()?;
     let mut chart = LineChart::new(
         "limit",
-        format!("Residual velocity and ballistic limit: {}", limits.case),
+        "Residual velocity and ballistic limit",
         Axis::new("Impact velocity (m/s)"),
         Axis::new("Residual velocity (m/s)"),
     )
     .caption(caption(scenario, None));
-    for (symbol, (_, limit)) in found().enumerate() {
-        chart = series(chart, limit, symbol);
+    let found = coinciding(found().map(|(_, limit)| limit));
+    for (symbol, models) in found.iter().enumerate() {
+        chart = series(chart, models, symbol);
     }
-    for (place, limit) in inputs().enumerate() {
-        chart = input_curve(chart, limit, found().count() + place);
+    for (place, models) in coinciding(inputs()).iter().enumerate() {
+        chart = input_curve(chart, models, found.len() + place);
     }
     let measured: Vec<_> = limits
         .experiments
@@ -73,14 +76,45 @@ pub fn limit_chart(scenario: &Scenario, limits: &Limits) -> Option<Chart> {
     Some(chart.into())
 }
 
-/// Points and curve of a model; the point at its limit is on the axis.
-fn series(chart: LineChart, limit: &ModelLimit, symbol: usize) -> LineChart {
+/// Models whose points would hide each other, together.
+fn coinciding<'a>(limits: impl Iterator<Item = &'a ModelLimit>) -> Vec<Vec<&'a ModelLimit>> {
+    let near = |a: f64, b: f64| (a - b).abs() <= COINCIDE * a.abs().max(b.abs());
+    let at = |limit: &ModelLimit| {
+        let input = limit.input_limit.map(|input| input.ballistic_limit_m_s);
+        limit.ballistic_limit_m_s.or(input)
+    };
+    let same = |a: &ModelLimit, b: &ModelLimit| {
+        let of_curves = a.curve.iter().zip(&b.curve).all(|(a, b)| {
+            near(a.impact_velocity_m_s, b.impact_velocity_m_s)
+                && near(a.residual_velocity_m_s, b.residual_velocity_m_s)
+        });
+        let of_limits = at(a).zip(at(b)).is_some_and(|(a, b)| near(a, b));
+        of_limits && of_curves && a.curve.len() == b.curve.len()
+    };
+    let mut groups: Vec<Vec<&ModelLimit>> = Vec::new();
+    for limit in limits {
+        match groups.iter_mut().find(|group| same(group[0], limit)) {
+            Some(group) => group.push(limit),
+            None => groups.push(vec![limit]),
+        }
+    }
+    groups
+}
+
+fn names(models: &[&ModelLimit]) -> String {
+    let names: Vec<&str> = models.iter().map(|limit| limit.model).collect();
+    names.join(" and ")
+}
+
+/// Points and curve of models that coincide; the point at their limit is on the axis.
+fn series(chart: LineChart, models: &[&ModelLimit], symbol: usize) -> LineChart {
+    let limit = models[0];
     let Some(at_limit) = limit.ballistic_limit_m_s else {
         return chart;
     };
     let points = limit.curve.iter();
     let points = points.map(|p| (p.impact_velocity_m_s, p.residual_velocity_m_s));
-    let name = format!("{}, limit {} m/s", limit.model, significant(at_limit));
+    let name = format!("{}, limit {} m/s", names(models), significant(at_limit));
     let points = Series::new(name, std::iter::once((at_limit, 0.0)).chain(points));
     let chart = chart.series(points.style(Style::Markers).symbol(symbol));
     let (Some(fit), Some(last)) = (limit.fit, limit.curve.last()) else {
@@ -100,15 +134,16 @@ fn is_input(limit: &ModelLimit) -> bool {
     limit.outcome == LimitOutcome::Input && !limit.curve.is_empty()
 }
 
-/// Residual velocities of a model whose limit is an input.
-fn input_curve(chart: LineChart, limit: &ModelLimit, symbol: usize) -> LineChart {
+/// Residual velocities of models whose limit is an input and that coincide.
+fn input_curve(chart: LineChart, models: &[&ModelLimit], symbol: usize) -> LineChart {
+    let limit = models[0];
     let Some(input) = limit.input_limit else {
         return chart;
     };
     let at = input.ballistic_limit_m_s;
     let points = limit.curve.iter();
     let points = points.map(|p| (p.impact_velocity_m_s, p.residual_velocity_m_s));
-    let name = format!("{}, input {} m/s", limit.model, significant(at));
+    let name = format!("{}, input {} m/s", names(models), significant(at));
     let curve = Series::new(name, std::iter::once((at, 0.0)).chain(points));
     let color = palette::symbol_color(symbol);
     chart.series(curve.style(Style::Dashed).color(color))

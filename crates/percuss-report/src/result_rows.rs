@@ -3,7 +3,7 @@
 use percuss::{
     Scenario,
     measured_curves::CurveComparison,
-    outcome::{Detail, Numerics, RunResult},
+    outcome::{Detail, Numerics, Outcome, RunResult},
     summary::{RESULT_FIELDS, ResultNumber, ResultRecord},
     units::significant,
 };
@@ -77,6 +77,13 @@ fn in_table(
     let unit = of.unit.symbol;
     Some(match (initial, of.name) {
         (Some(initial), _) => of_initial(value, of.unit.of_si(initial), unit, digits),
+        (None, "residual_velocity_m_s") if result.outcome == Outcome::AtRest && value != 0.0 => {
+            format!(
+                "{} (motion left at the end of the run, {:.1} % of the impact velocity)",
+                to_digits(value, unit, digits),
+                100.0 * value.abs() / scenario.impact_velocity
+            )
+        }
         (None, "residual_velocity_m_s") if value < 0.0 => {
             to_digits(value, unit, digits) + " (backwards)"
         }
@@ -155,6 +162,9 @@ fn curve_words(curve: &CurveComparison) -> String {
             "stress" | "strain" => "; the curves have opposite signs: compression is positive here",
             _ => "; the curves have opposite signs",
         };
+    }
+    if !curve.read_as.is_empty() {
+        words += &format!("; read {}", curve.read_as.join("; "));
     }
     if !curve.unread_columns.is_empty() {
         words += &format!("; columns not read: {}", curve.unread_columns.join(", "));

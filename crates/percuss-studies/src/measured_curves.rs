@@ -39,6 +39,9 @@ pub struct CurveComparison {
     pub relative_rms_difference: Option<f64>,
     /// Columns of the measured table that nothing reads.
     pub unread_columns: Vec<String>,
+    /// Columns of the measured table with other names or units than those of the program.
+    #[serde(skip)]
+    pub read_as: Vec<String>,
     /// Why there are no differences; null where there are.
     pub reason: Option<String>,
     /// Whether the difference is less than half as large with the other sign of the measured values.
@@ -85,6 +88,7 @@ pub(crate) fn compare_curve(curve: &MeasuredCurve, result: &RunResult) -> CurveC
         rms_difference: of(|d| d.rms).map(in_unit),
         relative_rms_difference: of(|d| d.rms / d.measured_rms).filter(|part| part.is_finite()),
         unread_columns: curve.unread_columns.clone(),
+        read_as: curve.read_as.clone(),
         reason,
         has_opposite_sign: difference.is_some_and(|d| d.mirrored_rms < 0.5 * d.rms),
         computed: points,

@@ -2,7 +2,6 @@
 
 use percuss::{
     Error, InputError, calibrate::Fitted, case, case::Document, sweep::Sweep, uncertainty::Study,
-    v50,
 };
 
 const CASE: &str = "projectile = { material = 'copper', length = '20 mm', diameter = '5 mm', impact_velocity = '230 m/s' }\n\
@@ -99,20 +98,4 @@ fn a_former_key_of_a_varied_number_is_named_with_the_new_one() {
     assert_says(&error, "fit.toml", 2, former, today);
     let error = input(Fitted::read("projectile.velocity=100..300 m/s"));
     assert_says(&error, "--fit", 1, former, today);
-}
-
-#[test]
-fn a_former_column_is_named_with_the_new_one() {
-    let error = input(v50::read_str(
-        "tests.csv",
-        "velocity_m_s,perforated\n184,no\n",
-    ));
-    assert_eq!(error.key, "velocity_m_s");
-    assert_says(
-        &error,
-        "tests.csv",
-        1,
-        "velocity_m_s",
-        "impact_velocity_m_s",
-    );
 }

@@ -50,7 +50,7 @@ pub(crate) fn refuse(part: &str, feature: &str) -> Failure {
         message: format!(
             "{part} needs the feature `{feature}`, which this build of percuss leaves out"
         ),
-        help: "`cargo install --path crates/percuss-cli` installs the program with all features"
+        help: "`cargo install --locked --path crates/percuss-cli` installs the program with all features"
             .to_owned(),
     }
 }

@@ -138,7 +138,7 @@ impl Validate {
                 .collect();
             return output::print(&lines);
         }
-        let text = validation_table::text(&validation, &data, self.model.len() == 1);
+        let text = validation_table::text(&validation, &data, &self.model);
         written.print_under(text)
     }
 

@@ -1,13 +1,12 @@
 //! Former names of keys: a file with one gets an error that names the key of today.
 
-/// Keys of a case and of a file of materials, and columns of files of tests: the former name and that of today. A `*` is the index of an entry of a
+/// Keys of a case and of a file of materials: the former name and that of today. A `*` is the index of an entry of a
 /// list, or the id of a material.
-const RENAMED: [(&str, &str); 7] = [
+const RENAMED: [(&str, &str); 6] = [
     ("projectile.velocity", "projectile.impact_velocity"),
     ("experiments.*.velocity", "experiments.*.impact_velocity"),
     ("chain.target_closure", "chain.target_resistance"),
     ("chain.erosion_closure", "chain.erosion_criterion"),
-    ("velocity_m_s", "impact_velocity_m_s"),
     (
         "materials.*.calibrated.shots",
         "materials.*.calibrated.tests",
@@ -23,7 +22,7 @@ pub struct Renamed {
 }
 
 impl Renamed {
-    /// The new name of a dotted key or of a column; `None` for all other keys.
+    /// The new name of a dotted key; `None` for all other keys.
     pub fn of(key: &str) -> Option<Self> {
         let parts: Vec<&str> = key.split('.').collect();
         let (_, today) = RENAMED.iter().find(|(former, _)| matches(former, &parts))?;

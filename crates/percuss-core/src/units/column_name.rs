@@ -2,6 +2,19 @@
 
 use super::{ALL_DIMENSIONS, ResultUnit, UnitSystem, normalise};
 
+/// Spellings of units that tables of instruments have, and the usual ones.
+const SPELLINGS: [(&str, &str); 9] = [
+    ("sec", "s"),
+    ("msec", "ms"),
+    ("usec", "us"),
+    ("nsec", "ns"),
+    ("m/sec", "m/s"),
+    ("ft/sec", "ft/s"),
+    ("m s-1", "m/s"),
+    ("m s⁻¹", "m/s"),
+    ("ms⁻¹", "m/s"),
+];
+
 /// What a column name says of a quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ColumnName {
@@ -35,9 +48,18 @@ impl ColumnUnit {
         value * self.factor
     }
 
+    /// Whether numbers of the column are in a unit of results.
+    pub fn is(self, unit: ResultUnit) -> bool {
+        self.offset == 0.0 && self.factor == 1.0 / unit.per_si
+    }
+
     /// The unit with this symbol of the kind of another.
     pub fn named(symbol: &str, of: ResultUnit) -> Option<Self> {
         let symbol = normalise(symbol);
+        let symbol = SPELLINGS
+            .iter()
+            .find(|(other, _)| *other == symbol)
+            .map_or(symbol, |(_, usual)| (*usual).to_owned());
         let mut known = candidates(of);
         known.find_map(|(name, unit)| (normalise(name) == symbol).then_some(unit))
     }
@@ -46,24 +68,69 @@ impl ColumnUnit {
 impl ColumnName {
     /// What a name says of a quantity, given as its name without a unit and a unit of its kind.
     pub fn of(name: &str, quantity: &str, unit: ResultUnit) -> Self {
-        if let Some((words, symbol)) = in_brackets(name) {
-            let symbol = normalise(symbol);
-            return match candidates(unit).find(|(known, _)| normalise(known) == symbol) {
-                _ if plain(words) != quantity => Self::Other,
-                Some((_, unit)) => Self::InUnit(unit),
-                None => Self::UnknownUnit(symbol),
-            };
-        }
-        let name = plain(name);
-        let Some(rest) = name.strip_prefix(quantity) else {
-            return Self::Other;
-        };
-        match candidates(unit).find(|(symbol, _)| suffix(symbol) == rest) {
-            Some((_, unit)) => Self::InUnit(unit),
-            None if rest.is_empty() => Self::WithoutUnit,
-            None => Self::Other,
-        }
+        Self::of_any(name, &[quantity], unit)
     }
+
+    /// What a name says of a quantity that has several names: `impact_velocity_m_s`, `Impact velocity, V0 (m/s)` and `V_0 [m/s]` are one.
+    pub fn of_any(name: &str, quantities: &[&str], unit: ResultUnit) -> Self {
+        let name = name.trim();
+        let with_unit = |(words, symbol): (&str, &str)| {
+            let known = ColumnUnit::named(symbol, unit);
+            let of = known.map_or_else(|| Self::UnknownUnit(normalise(symbol)), Self::InUnit);
+            is_one_of(words, quantities).then_some(of)
+        };
+        if let Some(found) = in_brackets(name).and_then(with_unit) {
+            return found;
+        }
+        if is_one_of(name, quantities) {
+            let plain_number = candidates(unit).find(|(symbol, _)| symbol.is_empty());
+            return plain_number.map_or(Self::WithoutUnit, |(_, unit)| Self::InUnit(unit));
+        }
+        if let Some(found) = name.rsplit_once(',').and_then(with_unit) {
+            return found;
+        }
+        let mut ends = name.char_indices().filter(|(_, c)| matches!(c, ' ' | '_'));
+        let found = ends.find_map(|(at, separator)| {
+            let (words, end) = (&name[..at], &name[at + 1..]);
+            if !is_one_of(words, quantities) {
+                return None;
+            }
+            let in_lower_case = || {
+                let end = format!("_{}", end.to_lowercase());
+                let mut known = candidates(unit);
+                known.find_map(|(symbol, unit)| (suffix(symbol) == end).then_some(unit))
+            };
+            let named = ColumnUnit::named(end, unit);
+            named.or_else(|| (separator == '_').then(in_lower_case).flatten())
+        });
+        found.map_or(Self::Other, Self::InUnit)
+    }
+}
+
+/// Whether words are one of the names of a quantity, or two of them side by side, as in `velocity V0`.
+fn is_one_of(words: &str, quantities: &[&str]) -> bool {
+    // Other signs may be a unit, as in `strain %`.
+    let is_of_name = |c: char| c.is_alphanumeric() || " _-.,?/#'".contains(c);
+    if !words.chars().all(is_of_name) {
+        return false;
+    }
+    let words = plain_name(words);
+    let is_name = |part: &str| quantities.iter().any(|name| plain_name(name) == part);
+    is_name(&words)
+        || quantities.iter().any(|name| {
+            let rest = words.strip_prefix(&plain_name(name));
+            rest.is_some_and(|rest| rest != plain_name(name) && is_name(rest))
+        })
+}
+
+/// The letters and digits of a name in lower case: `V_0`, `v0` and `V-0` are one.
+pub fn plain_name(name: &str) -> String {
+    let subscript = |c| match c {
+        '₀' => '0',
+        other => other,
+    };
+    let letters = name.chars().map(subscript).filter(|c| c.is_alphanumeric());
+    letters.flat_map(char::to_lowercase).collect()
 }
 
 /// Symbols of the units that a column of a kind may have, separated by commas.
@@ -119,11 +186,6 @@ fn in_brackets(name: &str) -> Option<(&str, &str)> {
     Some((words, unit.strip_suffix([')', ']'])?.trim()))
 }
 
-/// A name in lower case with underscores.
-fn plain(name: &str) -> String {
-    name.trim().to_lowercase().replace(' ', "_")
-}
-
 /// End of a name in a unit.
 fn suffix(symbol: &str) -> String {
     if symbol.is_empty() {
@@ -166,6 +228,11 @@ mod tests {
             ("temperature (°C)", "temperature", U::K, 275.15),
             ("strain", "strain", U::NONE, 2.0),
             ("strain (%)", "strain", U::NONE, 0.02),
+            ("strain, %", "strain", U::NONE, 0.02),
+            ("DEPTH, in", "depth", U::MM, 0.0508),
+            ("depth mm", "depth", U::MM, 2e-3),
+            ("Final-length [mm]", "final_length", U::MM, 2e-3),
+            ("time (µsec)", "time", U::US, 2e-6),
         ] {
             let found = si(name, quantity, unit).unwrap_or_else(|| panic!("{name}"));
             assert!((found - value).abs() <= 1e-12 * value, "{name}: {found}");
@@ -181,6 +248,15 @@ mod tests {
         assert_eq!(of("note (mm)", "depth", U::MM), ColumnName::Other);
         let kilogram = ColumnName::UnknownUnit("kg".to_owned());
         assert_eq!(of("depth (kg)", "depth", U::MM), kilogram);
+        let names = ["impact_velocity", "velocity", "v0"];
+        let of = |name| ColumnName::of_any(name, &names, U::M_S);
+        for name in ["V_0 [m/s]", "Impact velocity, V₀ (m/s)", "velocity V-0 m/s"] {
+            assert!(
+                matches!(of(name), ColumnName::InUnit(unit) if unit.is(U::M_S)),
+                "{name}"
+            );
+        }
+        assert_eq!(of("v0 v0 (m/s)"), ColumnName::Other);
         let symbols = column_symbols(U::US);
         assert_eq!(symbols, "us, ns, s, ms");
     }

@@ -23,7 +23,7 @@ use std::{borrow::Cow, fmt, marker::PhantomData, str::FromStr};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-pub use column_name::{ColumnName, ColumnUnit, column_symbols};
+pub use column_name::{ColumnName, ColumnUnit, column_symbols, plain_name};
 pub use dimension::*;
 pub use result_unit::ResultUnit;
 pub use system::UnitSystem;

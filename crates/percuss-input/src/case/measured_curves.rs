@@ -5,13 +5,15 @@ use std::borrow::Cow;
 use super::{Case, Document};
 use crate::{
     check::Diagnostic,
-    csv_table::{CsvRow, CsvTable, SEPARATORS_HELP, header},
+    csv_table::{
+        CsvRow, CsvTable, KnownColumn, REMARKS_HELP, Recognised, SEPARATORS_HELP, names, recognise,
+    },
     document::read_text,
     error::{Error, InputError},
     history::{ELEMENT_COLUMNS, Read, SAMPLE_COLUMNS},
     problem::{CurveUncertainty, MeasuredTable, SourceKeys},
     scenario::MeasuredCurve,
-    units::{ColumnName, ColumnUnit, ResultUnit, Time, column_symbols, shorten, split_number},
+    units::{ColumnUnit, ResultUnit, Time, column_symbols, shorten, split_number},
 };
 
 /// Name of the column of times.
@@ -165,7 +167,7 @@ fn read(
     index: usize,
 ) -> Result<Vec<MeasuredCurve>, Error> {
     let (table, records) = CsvTable::read(file, text)?;
-    let (time, columns, unread_columns) = columns(&table, of)?;
+    let (time, columns, recognised) = columns(&table, of)?;
     let rows: Vec<CsvRow<'_>> = records
         .into_iter()
         .map(|record| CsvRow {
@@ -183,7 +185,7 @@ fn read(
         }
         if points.len() < 2 {
             let at = table.header.iter().position(|name| *name == column.column);
-            let span = table.field_span(0, at.unwrap_or(0));
+            let span = table.name_span(at.unwrap_or(0));
             let message = format!("`{}` has fewer than two values", column.column);
             let help = "a curve has two values or more: one row for each time";
             return Err(table.error(span, &column.column, message, help).into());
@@ -194,7 +196,8 @@ fn read(
             quantity: column.kind.0,
             unit: column.kind.1,
             points,
-            unread_columns: unread_columns.clone(),
+            unread_columns: recognised.unread.clone(),
+            read_as: recognised.read_as.clone(),
             uncertainty: None,
             correlation_time: of.correlation_time.map(Time::si),
             sources: match &of.source {
@@ -226,75 +229,59 @@ fn times(rows: &[CsvRow<'_>], time: &Found) -> Result<Vec<f64>, Box<InputError>>
     Ok(times)
 }
 
-/// The column of times, those of quantities, and the names of the columns that nothing reads.
+/// The column of times, those of quantities, and what the names of the table are.
 fn columns(
     table: &CsvTable<'_>,
     of: &MeasuredTable,
-) -> Result<(Found, Vec<Found>, Vec<String>), Box<InputError>> {
+) -> Result<(Found, Vec<Found>, Recognised), Box<InputError>> {
     let at_gauge = of.gauge.is_some();
     let (own, others) = match at_gauge {
         true => (gauge_kinds(), sample_kinds()),
         false => (sample_kinds(), gauge_kinds()),
     };
-    let mut known: Vec<String> = Vec::new();
+    let others = others.into_iter().filter(|kind| !own.contains(kind));
+    let kinds: Vec<Kind> = own.iter().copied().chain(others).collect();
+    let full_names = kinds
+        .iter()
+        .map(|(name, unit)| format!("{name}{}", unit.suffix));
+    let full_names: Vec<String> = full_names.collect();
+    let known = kinds.iter().zip(&full_names);
+    let known: Vec<KnownColumn<'_>> = known
+        .map(|((quantity, unit), name)| KnownColumn {
+            name,
+            quantity,
+            aliases: names::of_curve(quantity),
+            unit: Some(*unit),
+        })
+        .collect();
+    let recognised = recognise(table, &known, &[])?;
     let mut times = None;
     let mut found: Vec<Found> = Vec::new();
     for (i, name) in table.header.iter().enumerate() {
-        let span = table.field_span(0, i);
-        let refuse = |message: String, help: String| Err(table.error(span, name, message, help));
-        let Some((kind, of_name)) = matching(name, &own) else {
-            if let Some((kind, _)) = matching(name, &others) {
-                let (message, help) = of_other_table(kind.0, at_gauge);
-                return refuse(message, help);
-            }
+        let Some((at, Some(unit))) = recognised.columns[i] else {
             continue;
         };
-        let column = match of_name {
-            ColumnName::InUnit(unit) => Found {
-                column: name.clone(),
-                kind,
-                unit,
-            },
-            ColumnName::UnknownUnit(unit) => {
-                let message = format!("`{}` is no unit of `{}`", shorten(&unit), kind.0);
-                let separator = match table.header.len() {
-                    1 => SEPARATORS_HELP,
-                    _ => "",
-                };
-                let units = column_symbols(kind.1);
-                return refuse(message, format!("units: {units}{separator}"));
-            }
-            _ => {
-                let message = format!("the unit of `{}` is missing", kind.0);
-                let example = format!("{} ({})", kind.0, kind.1.symbol);
-                let units = column_symbols(kind.1);
-                return refuse(message, format!("write `{example}`; units: {units}"));
-            }
-        };
-        let is_second = match kind.0 {
-            TIME => times.is_some(),
-            quantity => found.iter().any(|other| other.kind.0 == quantity),
-        };
-        if is_second {
-            return refuse(
-                format!("two columns are of `{}`", kind.0),
-                "remove one".into(),
-            );
+        let kind = kinds[at];
+        if at >= own.len() {
+            let (message, help) = of_other_table(kind.0, at_gauge);
+            return Err(table.error(table.name_span(i), name, message, help));
         }
-        known.push(name.clone());
+        let column = Found {
+            column: name.clone(),
+            kind,
+            unit,
+        };
         match kind.0 {
             TIME => times = Some(column),
             _ => found.push(column),
         }
     }
-    let canonical = own
-        .iter()
-        .map(|(name, unit)| format!("{name}{}", unit.suffix));
-    let all: Vec<String> = known.into_iter().chain(canonical).collect();
-    let all: Vec<&str> = all.iter().map(String::as_str).collect();
-    let unread = header::check(table, &all, &[])?;
+    let separator = match table.header.len() {
+        1 => SEPARATORS_HELP,
+        _ => "",
+    };
     let Some(time) = times else {
-        let help = "name it with its unit, such as `time_us`";
+        let help = format!("name it with its unit, such as `time_us`{separator}{REMARKS_HELP}");
         return Err(table.error(0..0, "", "the table has no column of times", help));
     };
     if found.is_empty() {
@@ -302,15 +289,7 @@ fn columns(
         let help = format!("quantities: {}", names.join(", "));
         return Err(table.error(0..0, "", "the table has no column of a quantity", help));
     }
-    Ok((time, found, unread))
-}
-
-/// The quantity that a column name names.
-fn matching(name: &str, kinds: &[Kind]) -> Option<(Kind, ColumnName)> {
-    kinds.iter().find_map(|kind| {
-        let of_name = ColumnName::of(name, kind.0, kind.1);
-        (of_name != ColumnName::Other).then_some((*kind, of_name))
-    })
+    Ok((time, found, recognised))
 }
 
 fn of_other_table(quantity: &str, at_gauge: bool) -> (String, String) {

@@ -18,4 +18,4 @@ def library(name: str) -> ModuleType:
     except ImportError as error:
         whole = name.partition(".")[0]
         extra = _EXTRAS[whole]
-        raise LibraryError(f"this needs {whole}, which cannot be imported: {error}\nhelp: install it with `pip install {whole}`, or all of its kind with `pip install \"percuss[{extra}]\"`") from error
+        raise LibraryError(f"this needs {whole}, which cannot be imported: {error}\nhelp: install it with `pip install {whole}`, or all of its kind with `pip install \".[{extra}]\"` in a clone of percuss") from error

@@ -38,11 +38,13 @@ const FOLDER: &str = "frames";
 pub(super) fn write(
     path: &Path,
     file: &[u8],
+    note: &str,
     scenario: &Scenario,
     quantity: FieldQuantity,
 ) -> Result<PathBuf, ReportError> {
     let points = points(file, path, quantity)?;
-    let (canvas, _) = canvas(scenario, quantity, &span(&points));
+    let (mut canvas, _) = canvas(scenario, quantity, &span(&points));
+    canvas.note = note.to_owned();
     let base = canvas.base(PICTURE_SCALE)?;
     let picture = canvas.picture(&points, &base, PICTURE_SCALE)?;
     let folder = path.parent().unwrap_or(path);

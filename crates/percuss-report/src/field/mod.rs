@@ -66,10 +66,10 @@ impl FinalField {
         scenario: &Scenario,
         quantity: FieldQuantity,
     ) -> Result<Vec<PathBuf>, ReportError> {
-        self.write_as(folder, FIELD, scenario, quantity)
+        self.write_as(folder, [FIELD, ""], scenario, quantity)
     }
 
-    /// The same with another stem of the file names.
+    /// The same with another stem of the file names, and a note below the depth in the picture, such as `on 6 cells`.
     ///
     /// # Errors
     /// Those of [`Self::write`].
@@ -77,14 +77,14 @@ impl FinalField {
     pub fn write_as(
         &self,
         folder: &Path,
-        stem: &str,
+        [stem, note]: [&str; 2],
         scenario: &Scenario,
         quantity: FieldQuantity,
     ) -> Result<Vec<PathBuf>, ReportError> {
         let written = vec![replace_file(folder, &format!("{stem}.vtp"), &self.file)?];
         #[cfg(feature = "png")]
         let written = {
-            let picture = drawing::write(&written[0], &self.file, scenario, quantity)?;
+            let picture = drawing::write(&written[0], &self.file, note, scenario, quantity)?;
             [written, vec![picture]].concat()
         };
         Ok(written)

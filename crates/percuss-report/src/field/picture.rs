@@ -31,6 +31,8 @@ pub(crate) struct Canvas {
     view: View,
     /// Left, top, width and height of the part that shows the bodies [px].
     place: [f64; 4],
+    /// Line below the depth: what the depth is of.
+    pub(super) note: String,
 }
 
 impl Canvas {
@@ -105,10 +107,15 @@ impl Canvas {
                 "{} mm deep",
                 significant((points.depth * 1e5).round() / 1e2)
             );
-            lines += &format!(
-                r#"<text x="{x}" y="{}" font-size="12">{depth}</text>"#,
-                top + 31.0
-            );
+            // A second line leaves the space above the numbers of the bar.
+            let (size, places) = match self.note.as_str() {
+                "" => (12, vec![(depth.as_str(), 31.0)]),
+                note => (11, vec![(depth.as_str(), 27.0), (note, 38.0)]),
+            };
+            for (line, below) in places {
+                let y = top + below;
+                lines += &format!(r#"<text x="{x}" y="{y}" font-size="{size}">{line}</text>"#);
+            }
         }
         let wide = figure_width::pixels();
         format!(
@@ -152,6 +159,7 @@ fn draw(title: &str, caption: &str, colors: Colors, view: View, height: f64) -> 
         bar.draw(scene, layout);
     });
     Canvas {
+        note: String::new(),
         figure,
         colors,
         view,

@@ -20,7 +20,7 @@ export function under(plot: uPlot, chart: Chart): void {
     const [left, right] = (chart.x.range ?? [0, 1]).map((x) => plot.valToPos(x, "x", true)) as [number, number];
     const [bottom, top] = (chart.y.range ?? [0, 1]).map((y) => plot.valToPos(y, "y", true)) as [number, number];
     ctx.drawImage(canvas, left, top, right - left, bottom - top);
-    for (const x of chart.vertical_lines) line(plot, { name: "", value: x, vertical: true }, "#000", null);
+    for (const x of chart.vertical_lines) line(plot, chart, { name: "", value: x, vertical: true }, "#000", null);
   }
   if (chart.kind === "lines") for (const series of chart.series) band(plot, chart, series);
   ctx.restore();
@@ -51,13 +51,13 @@ export function over(plot: uPlot, chart: Chart): void {
   ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
   ctx.clip();
   // Names of many marks stand below each other, for those that are close.
-  chart.marks.forEach((mark, i) => line(plot, mark, variable("--soft"), chart.kind === "histogram" ? i : null));
+  chart.marks.forEach((mark, i) => line(plot, chart, mark, variable("--soft"), chart.kind === "histogram" ? i : null));
   if (chart.kind === "lines") for (const series of chart.series) errorBars(plot, chart, series);
   ctx.restore();
 }
 
 // A mark; the name of a vertical one stands in a row counted from the top.
-function line(plot: uPlot, mark: Mark, stroke: string, row: number | null): void {
+function line(plot: uPlot, chart: Chart, mark: Mark, stroke: string, row: number | null): void {
   const { ctx, bbox } = plot;
   const ratio = devicePixelRatio;
   const at = plot.valToPos(mark.value, mark.vertical ? "x" : "y", true);
@@ -81,9 +81,8 @@ function line(plot: uPlot, mark: Mark, stroke: string, row: number | null): void
   ctx.font = `${12 * ratio}px system-ui, sans-serif`;
   const width = ctx.measureText(mark.name).width;
   const right = bbox.left + bbox.width - width - 6 * ratio;
-  const x = mark.vertical ? Math.min(at + 4 * ratio, right) : right;
   const top = bbox.top + (13 + 15 * (row ?? 0)) * ratio;
-  const y = mark.vertical ? top : Math.max(at - 5 * ratio, top);
+  const [x, y] = mark.vertical ? [Math.min(at + 4 * ratio, right), top] : freePlace(plot, chart, at, width, right, top);
   // A rim in the colour of the ground keeps the name legible over lines, and the lines visible.
   ctx.textAlign = "left";
   ctx.strokeStyle = variable("--card");
@@ -91,6 +90,44 @@ function line(plot: uPlot, mark: Mark, stroke: string, row: number | null): void
   ctx.strokeText(mark.name, x, y);
   ctx.fillStyle = variable("--ink");
   ctx.fillText(mark.name, x, y);
+}
+
+// The place of the name of a horizontal mark, above or below it, where it covers least of curves and of other marks; at the right if all are alike.
+function freePlace(plot: uPlot, chart: Chart, at: number, width: number, right: number, top: number): [number, number] {
+  const { bbox } = plot;
+  const ratio = devicePixelRatio;
+  const obstacles: [number, number][] = [];
+  const xs = plot.data[0] ?? [];
+  for (const ys of plot.data.slice(1)) {
+    let before: [number, number] | null = null;
+    for (let i = 0; i < xs.length; i++) {
+      const [vx, vy] = [xs[i], ys?.[i]];
+      if (vx == null || vy == null) continue;
+      const point: [number, number] = [plot.valToPos(vx, "x", true), plot.valToPos(vy, "y", true)];
+      obstacles.push(point);
+      // Between points that are far from each other lies the line.
+      const [dx, dy] = before ? [point[0] - before[0], point[1] - before[1]] : [0, 0];
+      const parts = Math.min(8, Math.ceil(Math.hypot(dx, dy) / (6 * ratio)));
+      for (let part = 1; part < parts; part++) obstacles.push([point[0] - dx * part / parts, point[1] - dy * part / parts]);
+      before = point;
+    }
+  }
+  const verticals = "marks" in chart && chart.kind === "lines" ? chart.marks.filter((mark) => mark.vertical).map((mark) => plot.valToPos(mark.value, "x", true)) : [];
+  const left = bbox.left + 6 * ratio;
+  let best: [number, number] = [right, Math.max(at - 5 * ratio, top)];
+  let least = Infinity;
+  for (const y of [at - 5 * ratio, at + 14 * ratio]) {
+    if (y < top || y > bbox.top + bbox.height) continue;
+    for (let step = 0; step <= 12; step++) {
+      const x = right - (right - left) * step / 12;
+      if (x < left - 1) continue;
+      const covers = ([px, py]: [number, number]) => px > x - 4 * ratio && px < x + width + 4 * ratio && py > y - 13 * ratio && py < y + 4 * ratio;
+      const crossed = verticals.filter((place) => place > x - 4 * ratio && place < x + width + 4 * ratio).length;
+      const cost = obstacles.filter(covers).length + 20 * crossed;
+      if (cost < least) [best, least] = [[x, y], cost];
+    }
+  }
+  return best;
 }
 
 function errorBars(plot: uPlot, chart: LineChart, series: LineChart["series"][number]): void {

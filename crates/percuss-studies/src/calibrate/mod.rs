@@ -260,7 +260,11 @@ fn solve(
     warnings.extend(problem.correction.and_then(|record| record.warning()));
     warnings.extend(not_blind(problem));
     warnings.extend(problem.curves().filter_map(CurveObservation::warning));
-    warnings.extend(posterior::warnings(&parameters, &scatter));
+    warnings.extend(posterior::warnings(
+        &parameters,
+        &scatter,
+        settings.sampling.map(|s| s.steps),
+    ));
     Ok(Calibration {
         percuss_version: env!("CARGO_PKG_VERSION"),
         model: problem.model.name(),

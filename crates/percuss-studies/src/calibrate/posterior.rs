@@ -21,6 +21,8 @@ use crate::{
 
 /// How much wider than the estimated posterior the walkers start: R-hat sees ensembles that have not met.
 const SPREAD: f64 = 2.0;
+/// Most times as many steps that a warning asks for.
+const MOST_FACTOR: f64 = 20.0;
 /// R-hat from which ensembles have not mixed, and the effective sizes that intervals need \[vehtari2021\].
 const R_HAT: f64 = 1.01;
 const SIZE: f64 = 400.0;
@@ -167,19 +169,26 @@ pub(super) fn shape(problem: &Problem, sample: &Sample) -> (Vec<f64>, DMatrix<f6
     (widths, correlations)
 }
 
-/// What is wrong with the sample.
-pub(super) fn warnings(parameters: &[ParameterRecord], scatter: &ScatterRecord) -> Vec<String> {
+/// What is wrong with a sample of so many steps, with the number of steps that is likely to be enough.
+pub(super) fn warnings(
+    parameters: &[ParameterRecord],
+    scatter: &ScatterRecord,
+    steps: Option<usize>,
+) -> Vec<String> {
     let named = parameters
         .iter()
         .map(|parameter| (parameter.key.as_str(), parameter.posterior));
     let all = named.chain([("the scatter", scatter.posterior)]);
     let mut warnings = Vec::new();
+    // Ensembles that do not agree need more than their sizes say.
+    let mut factor: f64 = 2.0;
     for (name, marginal) in all {
         let Some(marginal) = marginal else { continue };
         // Not a number where there are too few steps to tell.
         if marginal.r_hat.is_nan() || marginal.r_hat > R_HAT {
+            factor = factor.max(4.0);
             warnings.push(format!(
-                "the ensembles do not agree on {name}: R-hat is {:.3}, more than {R_HAT}; sample more steps",
+                "the ensembles do not agree on {name}: R-hat is {:.3}, more than {R_HAT}",
                 marginal.r_hat
             ));
         }
@@ -189,11 +198,20 @@ pub(super) fn warnings(parameters: &[ParameterRecord], scatter: &ScatterRecord) 
         ];
         for (what_for, size) in sizes {
             if size.is_nan() || size < SIZE {
+                factor = factor.max(1.2 * SIZE / size.max(1.0)).min(MOST_FACTOR);
                 warnings.push(format!(
-                    "the sample of {name} is worth {size:.0} independent values {what_for}, fewer than {SIZE}; sample more steps"
+                    "the sample of {name} is worth {size:.0} independent values {what_for}, fewer than {SIZE}"
                 ));
             }
         }
+    }
+    if let Some(steps) = steps.filter(|_| !warnings.is_empty()) {
+        // Whole hundreds.
+        let enough = 100 * (factor * steps as f64 / 100.0).ceil() as usize;
+        warnings.push(format!(
+            "the sample is too short: repeat with `--steps {enough}`, which takes {:.0} times as long",
+            enough as f64 / steps as f64
+        ));
     }
     warnings
 }

@@ -157,11 +157,14 @@ fn stamped(problem: &Problem, calibration: &Calibration, id: &str, material: Mat
             errors += &format!(" Relative RMS difference of the curve {name} {part:.1} %.");
         }
     }
+    let of_sources = match sources.is_empty() {
+        true => String::new(),
+        false => format!(" of {}", sources.join(", ")),
+    };
     let note = format!(
-        "Calibrated from {} of {} with the model `{}`{corrected} (percuss {}, seed {}): {}.{errors}{determined} \
+        "Calibrated from {}{of_sources} with the model `{}`{corrected} (percuss {}, seed {}): {}.{errors}{determined} \
          The other constants are those of `{id}`{others}",
         counted(value_count, curve_count),
-        sources.join(", "),
         calibration.model,
         calibration.percuss_version,
         calibration.seed,

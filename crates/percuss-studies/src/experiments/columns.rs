@@ -1,5 +1,11 @@
 //! Columns of a file of tests.
 
+use super::Kind;
+use crate::{
+    csv_table::{KnownColumn, names},
+    units::ResultUnit,
+};
+
 /// Name of the target of a Taylor test.
 pub(super) const RIGID_WALL: &str = "rigid-wall";
 /// Thickness of a target whose rear face does not matter.
@@ -34,7 +40,10 @@ const fn optional(name: &'static str, meaning: &'static str) -> CsvColumn {
 
 /// All columns, in the order in which the program's own files have them. A file may leave out those that are not required.
 pub const COLUMNS: &[CsvColumn] = &[
-    required("id", "a name that no other test has"),
+    optional(
+        "id",
+        "a name that no other test has; the number of the row when there is none",
+    ),
     optional("source", "bibliography key, or any words"),
     optional("read_at", "the public place where the row was read"),
     optional("licence", "under which licence the row is passed on"),
@@ -99,3 +108,82 @@ pub const COLUMNS: &[CsvColumn] = &[
     optional("unusable", "why no case can be made of the row"),
     optional("note", "Other remarks"),
 ];
+
+/// Columns that give a measured value, its unit and its kind, in place of `measured`, `unit` and `kind`.
+pub(super) const MEASURED: [(Kind, &str); 4] = [
+    (Kind::Taylor, "final_length_mm"),
+    (Kind::Depth, "depth_of_penetration_mm"),
+    (Kind::ResidualVelocity, "residual_velocity_m_s"),
+    (Kind::BallisticLimit, "ballistic_limit_m_s"),
+];
+
+/// The columns as tables may name them.
+pub(super) fn known() -> Vec<KnownColumn<'static>> {
+    let own = COLUMNS.iter().map(|column| column.name);
+    own.map(known_column).collect()
+}
+
+/// The columns of [`MEASURED`] as tables may name them.
+pub(super) fn known_measured() -> impl Iterator<Item = KnownColumn<'static>> {
+    MEASURED.into_iter().map(|(_, name)| known_column(name))
+}
+
+fn known_column(name: &'static str) -> KnownColumn<'static> {
+    let other_unit = |quantity, suffix, symbol, si_symbol, per_si| KnownColumn {
+        name,
+        quantity,
+        aliases: &[],
+        unit: Some(ResultUnit {
+            symbol,
+            suffix,
+            si_symbol,
+            si_suffix: "",
+            per_si,
+        }),
+    };
+    let aliases: &[&str] = match name {
+        "id" => &[
+            "test",
+            "test id",
+            "test no",
+            "test number",
+            "shot",
+            "shot no",
+            "no",
+        ],
+        "projectile_material" => &["rod material", "penetrator material", "core material"],
+        "target_material" => &["plate material"],
+        "length_mm" => &[
+            "projectile length",
+            "rod length",
+            "initial length",
+            "l",
+            "l0",
+        ],
+        "diameter_mm" => &[
+            "projectile diameter",
+            "rod diameter",
+            "caliber",
+            "calibre",
+            "d",
+            "d0",
+        ],
+        "mass_g" => &["projectile mass", "rod mass", "m"],
+        "temperature_k" => &["projectile temperature", "initial temperature"],
+        "impact_velocity_m_s" => names::IMPACT_VELOCITY,
+        "obliquity_deg" => &["obliquity angle", "angle of obliquity"],
+        "thickness_mm" => &["target thickness", "plate thickness", "h", "t"],
+        "final_length_mm" => names::FINAL_LENGTH,
+        "depth_of_penetration_mm" => names::DEPTH,
+        "residual_velocity_m_s" => names::RESIDUAL_VELOCITY,
+        "ballistic_limit_m_s" => names::BALLISTIC_LIMIT,
+        "target_density_kg_m3" => {
+            return other_unit("target_density", "_kg_m3", "kg/m3", "kg/m3", 1.0);
+        }
+        "target_youngs_modulus_gpa" => {
+            return other_unit("target_youngs_modulus", "_gpa", "GPa", "Pa", 1e-9);
+        }
+        _ => &[],
+    };
+    KnownColumn::of(name, aliases)
+}

@@ -4,16 +4,16 @@ use std::{collections::BTreeMap, path::Path};
 
 use super::{
     Experiment, Kind, Properties, Split, Strength, Struck,
-    columns::{COLUMNS, RIGID_WALL, SEMI_INFINITE},
+    columns::{COLUMNS, MEASURED, RIGID_WALL, SEMI_INFINITE, known, known_measured},
     materials,
 };
 use crate::{
-    csv_table::{CsvRow, CsvTable, header},
+    csv_table::{CsvRow, CsvTable, KnownColumn, recognise},
     document::read_text,
     error::{Error, InputError},
     material::{Library, Trust},
     problem::Nose,
-    units::shorten,
+    units::{plain_name, shorten},
 };
 
 /// Tests of a file.
@@ -23,6 +23,8 @@ pub struct TestFile<T> {
     pub tests: Vec<T>,
     /// Columns of other names, which nothing reads.
     pub unread_columns: Vec<String>,
+    /// Columns with other names or units than those of the program, each as `` `V0 (ft/s)` as `impact_velocity_m_s`, converted ``.
+    pub read_as: Vec<String>,
 }
 
 /// Reads a file of tests whose materials a library has; [`COLUMNS`] says what it holds. Other columns are not read.
@@ -42,12 +44,32 @@ pub fn read_str(name: &str, text: &str, library: &Library) -> Result<Vec<Experim
     Ok(file(name, text, library)?.tests)
 }
 
-fn file(name: &str, text: &str, library: &Library) -> Result<TestFile<Experiment>, Error> {
-    let (table, records) = CsvTable::read(name, text)?;
-    let known: Vec<&str> = COLUMNS.iter().map(|column| column.name).collect();
+pub(super) fn file(
+    name: &str,
+    text: &str,
+    library: &Library,
+) -> Result<TestFile<Experiment>, Error> {
+    let (mut table, records) = CsvTable::read(name, text)?;
     let required = COLUMNS.iter().filter(|column| column.required);
-    let required: Vec<&str> = required.map(|column| column.name).collect();
-    let unread_columns = header::check(&table, &known, &required)?;
+    let mut required: Vec<&str> = required.map(|column| column.name).collect();
+    let mut known = known();
+    if !table
+        .header
+        .iter()
+        .any(|name| plain_name(name) == "measured")
+    {
+        let of_kinds: Vec<KnownColumn<'_>> = known_measured().collect();
+        let has_any = recognise(&table, &of_kinds, &[])?
+            .columns
+            .iter()
+            .any(Option::is_some);
+        if has_any {
+            required.retain(|name| !["kind", "measured", "unit"].contains(name));
+            known.extend(of_kinds);
+        }
+    }
+    let recognised = recognise(&table, &known, &required)?;
+    table.adopt(&recognised, &known);
     let mut tests: Vec<Experiment> = Vec::new();
     let mut rows: BTreeMap<String, CsvRow<'_>> = BTreeMap::new();
     for record in records {
@@ -55,7 +77,7 @@ fn file(name: &str, text: &str, library: &Library) -> Result<TestFile<Experiment
             table: &table,
             record,
         };
-        let test = test(&row, library)?;
+        let test = test(&row, tests.len() + 1, library)?;
         if rows.contains_key(&test.id) {
             return Err(row
                 .error(
@@ -94,11 +116,12 @@ fn file(name: &str, text: &str, library: &Library) -> Result<TestFile<Experiment
     }
     Ok(TestFile {
         tests,
-        unread_columns,
+        unread_columns: recognised.unread,
+        read_as: recognised.read_as,
     })
 }
 
-fn test(row: &CsvRow<'_>, library: &Library) -> Result<Experiment, Box<InputError>> {
+fn test(row: &CsvRow<'_>, number: usize, library: &Library) -> Result<Experiment, Box<InputError>> {
     if row.record.len() != row.table.header.len() {
         return Err(row.error(
             "id",
@@ -110,26 +133,7 @@ fn test(row: &CsvRow<'_>, library: &Library) -> Result<Experiment, Box<InputErro
             "a field with a separator of columns in it stands in double quotes",
         ));
     }
-    let kind = row
-        .word("kind", &Kind::ALL.map(|kind| (kind.name(), kind)))?
-        .ok_or_else(|| {
-            row.error(
-                "kind",
-                "`kind` is empty",
-                "allowed: taylor, ballistic_limit, depth, residual_velocity",
-            )
-        })?;
-    row.required("unit")?;
-    row.word("unit", &[(kind.unit(), ())])?;
-    let to_si = |value: f64| value / kind.shown(1.0);
-    let measured = to_si(row.required_number("measured")?);
-    if measured < 0.0 || (measured == 0.0 && kind != Kind::ResidualVelocity) {
-        return Err(row.error(
-            "measured",
-            format!("{} is out of range", row.text("measured")),
-            "only a residual velocity can be 0, and nothing less than that",
-        ));
-    }
+    let (kind, measured, measured_column) = measured(row)?;
     let unusable = row.optional("unusable");
     let usable = unusable.is_none();
     let impact_velocity = match row.number("impact_velocity_m_s")? {
@@ -150,7 +154,7 @@ fn test(row: &CsvRow<'_>, library: &Library) -> Result<Experiment, Box<InputErro
         && measured > length
     {
         return Err(row.error(
-            "measured",
+            measured_column,
             format!(
                 "the final length is larger than the length of {} mm",
                 row.text("length_mm")
@@ -160,7 +164,7 @@ fn test(row: &CsvRow<'_>, library: &Library) -> Result<Experiment, Box<InputErro
     }
     if kind == Kind::ResidualVelocity && measured > impact_velocity {
         return Err(row.error(
-            "measured",
+            measured_column,
             "the residual velocity is larger than the impact velocity",
             format!(
                 "the impact velocity is {} m/s",
@@ -174,7 +178,10 @@ fn test(row: &CsvRow<'_>, library: &Library) -> Result<Experiment, Box<InputErro
         row.required("projectile_material")?;
     }
     let test = Experiment {
-        id: row.required("id")?,
+        id: match row.table.has("id") {
+            true => row.required("id")?,
+            false => format!("row {number}"),
+        },
         source: row.text("source").to_owned(),
         read_at: row.text("read_at").to_owned(),
         licence: row.text("licence").to_owned(),
@@ -196,7 +203,9 @@ fn test(row: &CsvRow<'_>, library: &Library) -> Result<Experiment, Box<InputErro
         obliquity_deg: row.number("obliquity_deg")?.unwrap_or(0.0),
         target: target(row, kind)?,
         measured,
-        uncertainty: row.number("uncertainty")?.map(to_si),
+        uncertainty: row
+            .number("uncertainty")?
+            .map(|value| value / kind.shown(1.0)),
         trust: row
             .word(
                 "trust",
@@ -218,6 +227,56 @@ fn test(row: &CsvRow<'_>, library: &Library) -> Result<Experiment, Box<InputErro
         materials::check(&test, row, library)?;
     }
     Ok(test)
+}
+
+/// Kind of a test, its measured value in SI units and the column of that.
+fn measured(row: &CsvRow<'_>) -> Result<(Kind, f64, &'static str), Box<InputError>> {
+    let mut kind = row.word("kind", &Kind::ALL.map(|kind| (kind.name(), kind)))?;
+    let column = if row.table.has("measured") {
+        "measured"
+    } else {
+        let filled = MEASURED.into_iter().filter(|(of, column)| {
+            kind.is_none_or(|kind| kind == *of) && !row.text(column).is_empty()
+        });
+        let filled: Vec<(Kind, &str)> = filled.collect();
+        match filled.as_slice() {
+            [(of, column)] => {
+                kind = Some(*of);
+                *column
+            }
+            [] => {
+                let message = "the row has no measured value";
+                let columns: Vec<&str> = MEASURED.map(|(_, column)| column).to_vec();
+                let help = format!("fill in one of {}", columns.join(", "));
+                return Err(row.error(kind.map_or("id", |_| "kind"), message, help));
+            }
+            [_, (_, column), ..] => {
+                let message = "the row has more than one measured value";
+                let help = "give every value a row of its own, or add a column `kind`";
+                return Err(row.error(column, message, help));
+            }
+        }
+    };
+    let kind = kind.ok_or_else(|| {
+        row.error(
+            "kind",
+            "`kind` is empty",
+            "allowed: taylor, ballistic_limit, depth, residual_velocity",
+        )
+    })?;
+    if column == "measured" {
+        row.required("unit")?;
+        row.word("unit", &[(kind.unit(), ())])?;
+    }
+    let measured = row.required_number(column)? / kind.shown(1.0);
+    if measured < 0.0 || (measured == 0.0 && kind != Kind::ResidualVelocity) {
+        return Err(row.error(
+            column,
+            format!("{} is out of range", row.text(column)),
+            "only a residual velocity can be 0, and nothing less than that",
+        ));
+    }
+    Ok((kind, measured, column))
 }
 
 fn nose(row: &CsvRow<'_>) -> Result<Nose, Box<InputError>> {

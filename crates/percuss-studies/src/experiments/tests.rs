@@ -180,6 +180,81 @@ fn a_file_needs_a_few_columns_only() {
     assert!((tests[0].measured - 0.02).abs() < 1e-15);
 }
 
+/// A column of a measured quantity stands for its kind and unit.
+#[test]
+fn columns_have_names_and_units_of_laboratories() {
+    let text = "# Series 4\nProjectile material;Target material;Dia. (in);L [mm];Thickness, mm;Vs (ft/s);Vr (m/s);DoP_mm;Operator\n\
+        copper;aluminium-2024-t351;0,3;20;25;1000;;3,5;ab\n\
+        copper;aluminium-2024-t351;0,3;20;5;1000;120;;ab\n";
+    let text = text.replace("Dia.", "Diameter");
+    let file = super::read::file("tests.csv", &text, Library::built_in()).unwrap();
+    assert_eq!(file.unread_columns, ["Operator"]);
+    assert_eq!(
+        file.read_as,
+        [
+            "`Diameter (in)` as `diameter_mm`, converted",
+            "`L [mm]` as `length_mm`",
+            "`Vs (ft/s)` as `impact_velocity_m_s`, converted",
+            "`Vr (m/s)` as `residual_velocity_m_s`",
+            "`DoP_mm` as `depth_of_penetration_mm`",
+        ]
+    );
+    let [depth, residual] = file.tests.as_slice() else {
+        panic!("{:?}", file.tests);
+    };
+    assert_eq!(
+        (depth.kind, residual.kind),
+        (Kind::Depth, Kind::ResidualVelocity)
+    );
+    assert_eq!(
+        (depth.id.as_str(), residual.id.as_str()),
+        ("row 1", "row 2")
+    );
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * b, "{a} {b}");
+    near(depth.measured, 3.5e-3);
+    near(depth.impact_velocity, 304.8);
+    near(depth.diameter.unwrap(), 7.62e-3);
+    near(residual.measured, 120.0);
+
+    for (from, to, message, help) in [
+        (
+            "Vs (ft/s)",
+            "Vs",
+            "the unit of `Vs` is missing",
+            "write `Vs (m/s)`",
+        ),
+        (
+            "DoP_mm",
+            "Vres (m/s)",
+            "two columns are of `residual_velocity`: `Vr (m/s)` and `Vres (m/s)`",
+            "remove one",
+        ),
+        (
+            "Projectile material",
+            "Projectile",
+            "lacks `projectile_material`",
+            "`Projectile` can be one of `projectile_class`, `projectile_material`; ",
+        ),
+        (
+            "Target material",
+            "Material",
+            "lacks `target_material`",
+            "`Material` can be one of `projectile_material`, `target_material`; ",
+        ),
+        (";3,5;ab", ";;ab", "no measured value", "final_length_mm"),
+        (
+            "120;;ab",
+            "120;3;ab",
+            "more than one measured value",
+            "a row of its own",
+        ),
+    ] {
+        let found = refused(&text.replace(from, to));
+        assert!(found.3.contains(message), "{found:?}");
+        assert!(found.4.contains(help), "{found:?}");
+    }
+}
+
 #[test]
 fn results_that_no_impact_can_have_are_refused() {
     let header = HEADER.replace("mass_g", "length_mm");

@@ -15,10 +15,31 @@ pub(crate) fn expected_error(
     regime: &Regime,
     result: &RunResult,
 ) -> Option<ModelErrorEstimate> {
-    let is_depth_of_crater =
-        result.depth_of_penetration.is_some() && result.outcome != Outcome::Perforated;
+    // A depth of zero has no relative error.
+    let has_depth = result.depth_of_penetration.is_some_and(|depth| depth > 0.0);
+    let is_depth_of_crater = has_depth && result.outcome != Outcome::Perforated;
     if !is_depth_of_crater || scenario.resistance.is_some() {
         return None;
     }
     estimate_error(model(result.model).ok()?, scenario, regime)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{case, outcome::Termination};
+
+    #[test]
+    fn a_depth_of_zero_has_no_relative_error() {
+        let text = "projectile = { material = 'copper', length = '12 mm', diameter = '5 mm', impact_velocity = '300 m/s' }\n\
+                    target = { material = 'aluminium-2024-t351', thickness = '50 mm' }\n";
+        let scenario = case::load_str("case.toml", text).unwrap();
+        let regime = Regime::of(&scenario);
+        let mut result = RunResult::new("chain", "", Outcome::AtRest, Termination::Quiescent);
+        for (depth, has_error) in [(1e-3, true), (0.0, false)] {
+            result.depth_of_penetration = Some(depth);
+            let found = expected_error(&scenario, &regime, &result);
+            assert_eq!(found.is_some(), has_error, "{depth} m");
+        }
+    }
 }

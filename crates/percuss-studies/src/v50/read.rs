@@ -5,31 +5,25 @@ use std::path::Path;
 use super::Test;
 use crate::{
     check::limits::IMPACT_VELOCITY,
-    csv_table::{CsvRow, CsvTable, header},
-    document::{Renamed, read_text},
+    csv_table::{CsvRow, CsvTable, KnownColumn, names, recognise},
+    document::read_text,
     error::{Error, InputError},
     experiments::TestFile,
-    units::{ColumnName, ColumnUnit, ResultUnit, Velocity, column_symbols, shorten},
+    units::{Velocity, plain_name, shorten},
 };
 
 const VELOCITY: &str = "impact_velocity_m_s";
 const PERFORATED: &str = "perforated";
-/// Other names of the column of results.
-const RESULT_COLUMNS: [&str; 5] = [
-    PERFORATED,
-    "result",
-    "outcome",
-    "penetration",
-    "perforation",
-];
-/// Names of the column of velocities without its unit.
-const QUANTITIES: [&str; 2] = ["impact_velocity", "velocity"];
-/// How a result of a test is written, in any case of letters.
-const RESULTS: [(&str, bool); 10] = [
+/// How a result of a test is written, by its letters in lower case.
+const RESULTS: [(&str, bool); 14] = [
     ("yes", true),
     ("no", false),
     ("complete", true),
     ("partial", false),
+    ("completepenetration", true),
+    ("partialpenetration", false),
+    ("y", true),
+    ("n", false),
     ("cp", true),
     ("pp", false),
     ("true", true),
@@ -38,7 +32,7 @@ const RESULTS: [(&str, bool); 10] = [
     ("0", false),
 ];
 
-/// Columns of a file: the impact velocity, also in another unit of its name, whether the target was perforated, and a note that nothing
+/// Columns of a file: the impact velocity, also by another name and in another unit, whether the target was perforated, and a note that nothing
 /// reads.
 pub const COLUMNS: [&str; 3] = [VELOCITY, PERFORATED, "note"];
 
@@ -60,18 +54,24 @@ pub fn read_str(name: &str, text: &str) -> Result<Vec<Test>, Error> {
 }
 
 fn file(name: &str, text: &str) -> Result<TestFile<Test>, Error> {
-    let (table, records) = CsvTable::read(name, text)?;
-    let (velocity, unit) = velocity(&table)?;
-    let result = result_column(&table);
-    let known = [velocity.as_str(), &result, COLUMNS[2]];
-    let unread_columns = header::check(&table, &known, &[&velocity, &result])?;
+    let (mut table, records) = CsvTable::read(name, text)?;
+    let known = [
+        KnownColumn::of(VELOCITY, names::IMPACT_VELOCITY),
+        KnownColumn {
+            aliases: names::PERFORATED,
+            ..KnownColumn::of_words(PERFORATED)
+        },
+        KnownColumn::of_words(COLUMNS[2]),
+    ];
+    let recognised = recognise(&table, &known, &[VELOCITY, PERFORATED])?;
+    table.adopt(&recognised, &known);
     let mut tests = Vec::new();
     for record in records {
         let row = CsvRow {
             table: &table,
             record,
         };
-        tests.push(test(&row, &velocity, unit, &result)?);
+        tests.push(test(&row)?);
     }
     if tests.is_empty() {
         let help = "write one row per test below the header, such as 184.3,yes";
@@ -80,49 +80,15 @@ fn file(name: &str, text: &str) -> Result<TestFile<Test>, Error> {
     }
     Ok(TestFile {
         tests,
-        unread_columns,
+        unread_columns: recognised.unread,
+        read_as: recognised.read_as,
     })
 }
 
-/// Name and unit of the column of velocities: the first that is one, in whatever unit. The usual name where there is none.
-fn velocity(table: &CsvTable<'_>) -> Result<(String, Option<ColumnUnit>), Box<InputError>> {
-    for (i, name) in table.header.iter().enumerate() {
-        // A former name is refused with the new one.
-        if Renamed::of(name).is_some() {
-            continue;
-        }
-        for quantity in QUANTITIES {
-            match ColumnName::of(name, quantity, ResultUnit::M_S) {
-                ColumnName::InUnit(unit) => return Ok((name.clone(), Some(unit))),
-                ColumnName::WithoutUnit => {
-                    let message = format!("the unit of `{}` is missing", shorten(name));
-                    let units = column_symbols(ResultUnit::M_S);
-                    let help = format!("write `{VELOCITY}` or `{quantity} (m/s)`; units: {units}");
-                    return Err(table.error(table.field_span(0, i), name, message, help));
-                }
-                _ => {}
-            }
-        }
-    }
-    Ok((VELOCITY.to_owned(), None))
-}
-
-/// Name of the column of results: the first that is one, in any case of letters. The usual name where there is none.
-fn result_column(table: &CsvTable<'_>) -> String {
-    let mut names = table.header.iter();
-    let found = names.find(|name| RESULT_COLUMNS.contains(&name.to_lowercase().as_str()));
-    found.map_or_else(|| PERFORATED.to_owned(), String::clone)
-}
-
-fn test(
-    row: &CsvRow<'_>,
-    column: &str,
-    unit: Option<ColumnUnit>,
-    result_column: &str,
-) -> Result<Test, Box<InputError>> {
+fn test(row: &CsvRow<'_>) -> Result<Test, Box<InputError>> {
     if row.record.len() != row.table.header.len() {
         return Err(row.error(
-            column,
+            VELOCITY,
             format!(
                 "the row has {} fields, and the first line names {}",
                 row.record.len(),
@@ -131,11 +97,10 @@ fn test(
             "a field with a separator of columns in it stands in double quotes",
         ));
     }
-    let number = row.required_number(column)?;
-    let velocity = unit.map_or(number, |unit| unit.to_si(number));
+    let velocity = row.required_number(VELOCITY)?;
     if !(IMPACT_VELOCITY.min..=IMPACT_VELOCITY.max).contains(&velocity) {
         return Err(row.error(
-            column,
+            VELOCITY,
             format!("{} is out of range", Velocity::new(velocity)),
             format!(
                 "allowed: {} to {} m/s",
@@ -143,12 +108,12 @@ fn test(
             ),
         ));
     }
-    let result = row.required(result_column)?.to_lowercase();
+    let result = plain_name(&row.required(PERFORATED)?);
     let known = RESULTS.iter().find(|(word, _)| *word == result);
     let Some((_, perforated)) = known else {
-        let message = format!("unknown value `{}`", shorten(row.text(result_column)));
+        let message = format!("unknown value `{}`", shorten(row.text(PERFORATED)));
         let help = "allowed: yes or no, complete or partial, CP or PP, true or false, 1 or 0";
-        return Err(row.error(result_column, message, help));
+        return Err(row.error(PERFORATED, message, help));
     };
     Ok(Test {
         impact_velocity: velocity,

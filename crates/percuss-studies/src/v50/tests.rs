@@ -296,12 +296,12 @@ fn a_file_is_read_and_what_is_wrong_in_it_has_its_place() {
             "velocity,perforated\n184,no\n",
             1,
             "velocity",
-            "write `impact_velocity_m_s` or `velocity (m/s)`",
+            "write `velocity (m/s)`; units: m/s",
         ),
         (
             "impact_velocity_m_s:perforated\n184:no\n",
             1,
-            "impact_velocity_m_s:perforated",
+            "",
             "separated by commas, semicolons or tabs",
         ),
         ("impact_velocity_m_s\n184\n", 1, "", "lacks `perforated`"),
@@ -310,6 +310,12 @@ fn a_file_is_read_and_what_is_wrong_in_it_has_its_place() {
             1,
             "impact_velocity_m_s",
             "two columns",
+        ),
+        (
+            "V0 (m/s),Vs [ft/s],Result\n1,2,CP\n",
+            1,
+            "Vs [ft/s]",
+            "two columns are of `impact_velocity`: `V0 (m/s)` and `Vs [ft/s]`",
         ),
         (
             "impact_velocity_m_s,perforated\n184\n",
@@ -334,6 +340,11 @@ fn tables_of_spreadsheets_are_read() {
         "velocity (m/s);Result\r\n184,3;PP\r\n188,5;CP\r\n",
         "velocity (km/h);penetration\n663,48;partial\n678,6;complete\n",
         "impact_velocity_m_s\toutcome\n184.3\t0\n188.5\t1\n",
+        "Velocity, m/s;Perforation?\n184,3;no\n188,5;yes\n",
+        "\"Striking velocity, V_s [m/s]\",CP/PP\n184.3,PP\n188.5,CP\n",
+        "V-impact km/s,Penetration\n.1843,Partial penetration\n.1885,COMPLETE\n",
+        "# Range 2\n#\nV0 (m/s);Outcome\n184,3;partial\n188,5;complete penetration\n",
+        "# V0_m_s,Outcome\n184.3,PP\n188.5,CP\n",
     ] {
         let read = read_str("tests.csv", text).unwrap_or_else(|error| panic!("{error}"));
         for (read, expected) in read.iter().zip(&expected) {

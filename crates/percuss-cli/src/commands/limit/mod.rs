@@ -26,7 +26,7 @@ use crate::{
     progress::Progress,
     response::{ProgressCallback, Response, VirtualFiles},
     run_folder::RunFolder,
-    test_data::note_unread,
+    test_data::note_columns,
 };
 
 /// Runs of a search for a limit, for the estimate of its cost.
@@ -207,7 +207,7 @@ impl Limit {
         )?;
         let tests = tests.map(|file| {
             if let Some(path) = &self.tests {
-                note_unread(path, &file.unread_columns);
+                note_columns(path, &file);
             }
             let tests = file.tests;
             let v50 = v50::estimate(&tests, self.span.unwrap_or(v50::SPAN));

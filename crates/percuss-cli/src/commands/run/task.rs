@@ -183,7 +183,14 @@ impl<'a> Task<'a> {
         let has_answer = has_answer.is_some_and(|answer| answer.finest.is_some());
         if let Some(last) = self.axisymmetric.take().filter(|_| has_answer) {
             let quantity = FieldQuantity::default();
-            files.extend(last.write_as(out, AXISYMMETRIC, &run_output.scenario, quantity)?);
+            let meshes = run_output
+                .axisymmetric
+                .iter()
+                .flat_map(|answer| &answer.meshes);
+            let cells = meshes.map(|mesh| mesh.cells_per_radius).max();
+            let note = cells.map_or_else(String::new, |cells| format!("on {cells} cells"));
+            let names = [AXISYMMETRIC, note.as_str()];
+            files.extend(last.write_as(out, names, &run_output.scenario, quantity)?);
         }
         if let Some(fields) = &mut self.fields {
             let (model, scenario) = (self.chosen.model, &run_output.scenario);

@@ -98,7 +98,8 @@ pub struct Uncertainty {
     /// Seed of the random numbers
     #[arg(long, value_name = "S", default_value = "0")]
     seed: u64,
-    /// Result to analyse, by its name in JSON; may be given several times
+    /// Result to analyse, by its name in JSON; may be given several times. Only plate_cavity, plugging, awerbuch_bodner and
+    /// power_balance give ballistic_limit_m_s
     #[arg(long, value_name = "NAME")]
     #[arg(value_parser = PossibleValuesParser::new(uncertainty::quantities().map(|quantity| quantity.name)))]
     quantity: Vec<String>,
@@ -297,7 +298,11 @@ impl Uncertainty {
             message: format!("no run of model `{}` has a value of {missing}", self.model),
             help: match names.is_empty() {
                 true => "`percuss run` prints the reason".to_owned(),
-                false => format!("available quantities: {}", names.join(", ")),
+                false => format!(
+                    "{}available quantities: {}",
+                    models_that_predict(missing),
+                    names.join(", ")
+                ),
             },
         })
     }
@@ -319,4 +324,21 @@ fn write(mut folder: RunFolder, study: &Study, found: &Analysis) -> Result<Vec<P
     folder.add(percuss_report::write_uncertainty(folder.path(), found)?);
     folder.add_figures(&percuss_report::uncertainty_figures(&study.scenario, found))?;
     Ok(folder.written())
+}
+
+/// The models that predict a quantity, as a sentence; empty where the lists of models do not name it.
+fn models_that_predict(quantity: &str) -> String {
+    let predicts = |model: &&&dyn Model| {
+        let predicted = model.validity().predicts.iter();
+        predicted.map(|of| of.name()).any(|name| name == quantity)
+    };
+    let names: Vec<&str> = model::MODELS
+        .iter()
+        .filter(predicts)
+        .map(|m| m.name())
+        .collect();
+    match names.is_empty() {
+        true => String::new(),
+        false => format!("models that predict it: {}; ", names.join(", ")),
+    }
 }
