@@ -103,7 +103,7 @@ fn models_with_histories_are_compared_with_the_curves() {
     let text = ok(path, &words);
     assert!(text.contains("differences from measured curves"), "{text}");
     assert!(text.contains("load cell: contact force"), "{text}");
-    let read = "`t (msec)` as `time_us`, converted; `Force_lbf` as `contact_force_kn`, converted";
+    let read = "load cell: read `t (msec)` as `time_us`, converted; read `Force_lbf` as `contact_force_kn`, converted; column `remark` not read";
     assert!(flat(&text).contains(read), "{text}");
     let figure = fs::read_to_string(path.join("out/measured-curve-1.svg")).unwrap();
     assert!(figure.contains("chain, RMS difference") && figure.contains("fdm, RMS difference"));

@@ -6,7 +6,10 @@ use percuss_report::{
     table::{Table, number},
 };
 
-use crate::{table::blocks, terminal::bold};
+use crate::{
+    table::blocks,
+    terminal::{bold, width, wrap},
+};
 
 /// The table, for the velocity of the case, of models with histories; empty without measured curves.
 pub fn text(comparison: &Comparison) -> String {
@@ -45,5 +48,24 @@ pub fn text(comparison: &Comparison) -> String {
         )
         .table();
     let heading = "differences from measured curves over the common time, of models with histories";
-    format!("{}\n{}", bold(heading), blocks(&table))
+    format!("{}\n{}{}", bold(heading), blocks(&table), notes(&rows))
+}
+
+/// What the names of the columns of each table were read as, and which nothing reads.
+fn notes(rows: &[(&str, &CurveComparison)]) -> String {
+    let mut notes: Vec<String> = Vec::new();
+    for (_, curve) in rows {
+        let read_as = curve.read_as.iter().map(|words| format!("read {words}"));
+        let unread = curve.unread_columns.iter();
+        let unread = unread.map(|name| format!("column `{name}` not read"));
+        let words: Vec<String> = read_as.chain(unread).collect();
+        let note = format!("{}: {}", curve.name, words.join("; "));
+        if !words.is_empty() && !notes.contains(&note) {
+            notes.push(note);
+        }
+    }
+    notes
+        .iter()
+        .map(|note| format!("{}\n", wrap(note, width(), 2)))
+        .collect()
 }
