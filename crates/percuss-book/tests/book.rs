@@ -20,7 +20,10 @@ fn the_book_builds_and_every_link_leads_somewhere() {
     let is_index = |name: &std::ffi::OsString| name.to_string_lossy().starts_with("searchindex");
     assert!(index.any(|name| is_index(&name)), "no index for the search");
     let page = fs::read_to_string(&pages[0]).unwrap();
-    assert!(page.contains("id=\"mdbook-searchbar\""), "no box for the search");
+    assert!(
+        page.contains("id=\"mdbook-searchbar\""),
+        "no box for the search"
+    );
     let mut broken = Vec::new();
     for page in pages {
         let text = fs::read_to_string(&page).unwrap();
