@@ -10,8 +10,9 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <time.h>
+
+#define PROGRAM "cavity"
+#include "program.h"
 
 /* Elements of a body at most, points of the cavity's curve, samples of a transit of the plate, reflections, numbers of an end. */
 enum { MOST = 256, POINTS = 400, TRANSIT = 64, ECHOES = 200, MOST_SAMPLES = 1 << 14, NUMBERS = 4 };
@@ -54,29 +55,6 @@ typedef struct {
     int samples;
     double spacing, last_time, last_value, share[ECHOES + 1], sample[MOST_SAMPLES];
 } Run;
-
-static void fail(const char *what)
-{
-    fprintf(stderr, "cavity: %s\n", what);
-    exit(1);
-}
-
-static void *reserve(size_t bytes)
-{
-    void *memory = aligned_alloc(64, (bytes + 63) / 64 * 64);
-    if (!memory)
-        fail("no memory left");
-    memset(memory, 0, bytes);
-    return memory;
-}
-
-/* Time [s] that processors have spent on this process. */
-static double processor_time(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return time.tv_sec + 1e-9 * time.tv_nsec;
-}
 
 static void read_numbers(FILE *file, int count, double **numbers)
 {

@@ -9,8 +9,9 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <time.h>
+
+#define PROGRAM "chain"
+#include "program.h"
 
 #include POWER
 
@@ -35,29 +36,6 @@ typedef struct {
     double exponent[MOST_SPRINGS];
     double *speed; /* of every chain */
 } Problem;
-
-static void fail(const char *what)
-{
-    fprintf(stderr, "chain: %s\n", what);
-    exit(1);
-}
-
-static void *reserve(size_t bytes)
-{
-    void *memory = aligned_alloc(64, (bytes + 63) / 64 * 64);
-    if (!memory)
-        fail("no memory left");
-    memset(memory, 0, bytes);
-    return memory;
-}
-
-/* Time [s] that processors have spent on this process. */
-static double processor_time(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return time.tv_sec + 1e-9 * time.tv_nsec;
-}
 
 static Problem *read_problem(const char *path)
 {
