@@ -151,6 +151,13 @@ impl<'a> CsvTable<'a> {
         self.header.iter().any(|name| name == column)
     }
 
+    /// A number of a column in the unit of its name.
+    fn converted(&self, number: f64, column: &str) -> f64 {
+        let at = self.header.iter().position(|name| name == column);
+        let conversion = at.and_then(|at| self.conversions[at]);
+        conversion.map_or(number, |(from, to)| to.of_si(from.to_si(number)))
+    }
+
     /// The name of a column as written.
     fn as_written<'b>(&'b self, column: &'b str) -> &'b str {
         let at = self.header.iter().position(|name| name == column);
@@ -228,6 +235,19 @@ impl CsvRow<'_> {
 
     /// A number, unless the field is empty.
     pub fn number(&self, column: &str) -> Result<Option<f64>, Box<InputError>> {
+        let written = self.written_number(column)?;
+        Ok(written.map(|number| self.table.converted(number, column)))
+    }
+
+    /// A difference in the unit of another column, such as its uncertainty, unless the field is empty.
+    pub fn difference(&self, column: &str, of: &str) -> Result<Option<f64>, Box<InputError>> {
+        let written = self.written_number(column)?;
+        let zero = self.table.converted(0.0, of);
+        Ok(written.map(|number| self.table.converted(number, of) - zero))
+    }
+
+    /// A number in the unit that it is written in.
+    fn written_number(&self, column: &str) -> Result<Option<f64>, Box<InputError>> {
         let text = self.text(column);
         if text.is_empty() {
             return Ok(None);
@@ -237,13 +257,7 @@ impl CsvRow<'_> {
             Separator::Semicolon | Separator::Tab => text.replacen(',', ".", 1).parse(),
         };
         match parsed {
-            Ok(number) if number.is_finite() => {
-                let at = self.table.header.iter().position(|name| name == column);
-                let conversion = at.and_then(|at| self.table.conversions[at]);
-                Ok(Some(
-                    conversion.map_or(number, |(from, to)| to.of_si(from.to_si(number))),
-                ))
-            }
+            Ok(number) if number.is_finite() => Ok(Some(number)),
             _ => Err(self.error(
                 column,
                 format!("`{}` is no number", shorten(text)),

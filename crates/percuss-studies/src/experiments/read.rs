@@ -204,7 +204,7 @@ fn test(row: &CsvRow<'_>, number: usize, library: &Library) -> Result<Experiment
         target: target(row, kind)?,
         measured,
         uncertainty: row
-            .number("uncertainty")?
+            .difference("uncertainty", measured_column)?
             .map(|value| value / kind.shown(1.0)),
         trust: row
             .word(

@@ -211,6 +211,11 @@ fn columns_have_names_and_units_of_laboratories() {
         ("row 1", "row 2")
     );
     let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * b, "{a} {b}");
+    let in_inches = "projectile_material,target_material,diameter_mm,length_mm,thickness_mm,impact_velocity_m_s,DoP (in),uncertainty\n\
+        copper,aluminium-2024-t351,5,20,25,300,0.1,0.02\n";
+    let tests = super::read_str("tests.csv", in_inches, Library::built_in()).unwrap();
+    near(tests[0].measured, 2.54e-3);
+    near(tests[0].uncertainty.unwrap(), 0.508e-3);
     near(depth.measured, 3.5e-3);
     near(depth.impact_velocity, 304.8);
     near(depth.diameter.unwrap(), 7.62e-3);
