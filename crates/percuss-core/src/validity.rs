@@ -169,7 +169,7 @@ impl ValidityDomain {
                     let may_be_rigid = self.projectile.contains(&ProjectileRegime::Rigid);
                     return Applicability::refused(if may_be_rigid && never_yields(scenario) {
                         reason.with_remedy(
-                            "a projectile is rigid on a target that never yields where its material has `strength.elastic = {}`",
+                            "give the projectile's material `strength.elastic = {}`: it is then rigid",
                         )
                     } else {
                         reason

@@ -1,4 +1,4 @@
-//! The axisymmetric model on case files: rods on a rigid wall.
+//! The axisymmetric model on case files: rods on a rigid wall, thick plates, brittle targets.
 
 use crate::common::{assert_near, scenario};
 use percuss::{
@@ -93,4 +93,57 @@ fn a_run_whose_energy_balance_does_not_close_is_repeated_with_half_the_courant_n
         "{warning}"
     );
     assert_eq!(repeated, run(&text(", courant = 0.175")));
+}
+
+/// Depth of a steel rod in 6061-T6 of 5.4 diameters [mm] and the warnings, with options of `axi` and of the target.
+fn in_thick_plate(target: &str, options: &str) -> (f64, String) {
+    let result = run(&format!(
+        r#"
+        projectile = {{ material = "4340-johnson-cook", length = "10 mm", diameter = "5 mm", impact_velocity = "700 m/s" }}
+        target = {{ material = "6061-t6-lesuer", thickness = "27 mm", {target} }}
+        axi = {{ cells_per_radius = 4, {options} }}
+        "#
+    ));
+    // Material that fails takes energy at once.
+    let residual = result.numerics().energy_residual;
+    assert!(residual <= 5e-3, "{residual}");
+    (
+        1e3 * result.depth_of_penetration.unwrap(),
+        result.warnings.join("\n"),
+    )
+}
+
+/// A rear face that no wave reaches in time to matter has no effect on the crater.
+#[test]
+fn a_thick_plate_has_the_crater_of_a_semi_infinite_target() {
+    let (fixed, _) = in_thick_plate("back_face = 'fixed'", "");
+    let (intact, _) = in_thick_plate("back_face = 'free'", "damage = false");
+    assert_near("free rear face", intact, fixed, 0.02);
+    // Failed material that stays enclosed carries pressure; where it is taken out, nothing does.
+    let (damaged, warnings) = in_thick_plate("back_face = 'free'", "");
+    assert!(
+        damaged > intact && damaged < 1.25 * intact,
+        "{damaged} {intact}"
+    );
+    assert!(
+        warnings.contains("compare `axi.damage = false`"),
+        "{warnings}"
+    );
+    let (eroded, _) = in_thick_plate("back_face = 'free'", "erode_failed = true");
+    assert!(eroded > 1.5 * intact, "{eroded} {intact}");
+}
+
+#[test]
+fn brittle_targets_are_named_that_cannot_crack() {
+    let result = axi(r#"
+        projectile = { material = "4340-johnson-cook", length = "4 mm", diameter = "4 mm", impact_velocity = "50 m/s" }
+        target = { material = "glass", thickness = "8 mm", back_face = "free" }
+        axi = { cells_per_radius = 3 }
+        "#);
+    let warnings = result.warnings.join("\n");
+    assert!(
+        warnings.contains("is brittle, and cannot crack in `axi`"),
+        "{warnings}"
+    );
+    assert!(!warnings.contains("stretching and thinning"), "{warnings}");
 }

@@ -157,6 +157,28 @@ fn a_neighbouring_regime_passes_with_a_warning() {
     );
 }
 
+/// On a target that never yields, a projectile is rigid only if it does not either.
+#[test]
+fn what_makes_a_projectile_rigid_is_said_where_nothing_else_can() {
+    let rigid = ValidityDomain {
+        projectile: &[ProjectileRegime::Rigid],
+        ..ValidityDomain::OPEN
+    };
+    let remedy = |target: &str| {
+        let case = scenario(target, "'flat'", 100.0);
+        match applicability(&rigid, &case) {
+            Applicability::Outside(refusal) => refusal.remedy,
+            Applicability::Inside(warnings) => panic!("let pass with {warnings:?}"),
+        }
+    };
+    let glass = remedy("material = 'glass', thickness = '10 mm'").unwrap();
+    assert!(glass.contains("`strength.elastic = {}`"), "{glass}");
+    assert_eq!(
+        remedy("material = '4340-johnson-cook', thickness = '10 mm'"),
+        None
+    );
+}
+
 #[test]
 fn ranges_refuse_or_warn_and_hold_their_ends() {
     const fn range(measure: Measure, min: f64, max: f64, outside: Outside) -> Range {

@@ -144,7 +144,8 @@ fn law(material: &Material, scenario: &Scenario) -> Law {
     }
 }
 
-fn is_thick(scenario: &Scenario) -> bool {
+/// Whether a target is so thick that its rear face is far from the crater.
+pub(super) fn is_thick(scenario: &Scenario) -> bool {
     let thickness = scenario.target_thickness();
     thickness.is_none_or(|thickness| thickness >= THICK * scenario.projectile.diameter)
 }

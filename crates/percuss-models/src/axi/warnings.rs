@@ -2,7 +2,7 @@
 
 use super::{
     run::{Axisymmetric, materials},
-    setup::extent,
+    setup::{extent, is_thick},
 };
 use crate::{Scenario, material::Material, outcome::RunResult, problem::RearFaceCondition};
 
@@ -95,6 +95,16 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
             "the target can be perforated by stretching and thinning alone, which takes more energy than failure: {} has no `damage` in its record. Give it, or `axi.failure_strain`",
             cannot_fail.join(", ")
         ));
+    }
+    let can_fail = materials(run.scenario)
+        .skip(1)
+        .any(|(material, _)| material.damage.is_some());
+    if free && is_thick(run.scenario) && options.damage.is_none() && can_fail {
+        warnings.push(
+            "the target accumulates damage, which is the default with a free rear face, and has a deeper crater than a target whose rear face \
+             is fixed or far away, which does not: compare `axi.damage = false`"
+                .to_owned(),
+        );
     }
     for (asked, what, lacks) in [
         (
