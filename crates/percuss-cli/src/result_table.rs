@@ -23,7 +23,7 @@ const BAR: f64 = 30.0;
 const NEGLIGIBLE: f64 = 1e-9;
 
 /// What is said where an axisymmetric answer is to follow.
-const FIRST: &str = "a first answer in one dimension; the number to use, of the axisymmetric model, follows at the end";
+const FIRST: &str = "a first answer; the number to use follows at the end: that of the axisymmetric model on several meshes";
 
 /// Results, energy distribution, balances, results of other models, and warnings; `is_first` where an axisymmetric answer is to follow.
 pub fn text(

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use percuss::units::significant;
 use serde_json::Value;
 
 use crate::support::{flat, json, ok, percuss, shot};
@@ -28,7 +29,7 @@ fn the_axisymmetric_depth_is_the_headline_below_the_first_result() {
         .split_once("\nAxisymmetric depth of penetration ")
         .unwrap();
     let said = first.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(said.contains("the number to use, of the axisymmetric model, follows at the end"));
+    assert!(said.contains("the number to use follows at the end: that of the axisymmetric model"));
     assert!(first.contains("depth of penetration  ") && first.contains("depth by other models"));
     // The guess of the error gives way to the difference.
     assert!(!first.contains("estimated model error"), "{text}");
@@ -106,6 +107,29 @@ fn a_rigid_wall_has_the_final_length_as_headline() {
     let found = answer(wall, &[]);
     assert_eq!(found["quantity"], "projectile_final_length_mm");
     assert_eq!(found["depth_of_penetration_mm"], Value::Null);
+}
+
+#[test]
+fn a_comparison_over_velocities_has_the_uncertainty_of_each() {
+    let folder = shot(SHORT);
+    let words = ["compare", "shot.toml", "--velocity", "200,300"];
+    let words = [&words[..], &["--reference", "standard"]].concat();
+    let text = ok(folder.path(), &words);
+    let json = json(&ok(folder.path(), &[&words[..], &["--json"]].concat()));
+    let axi = json["results"].as_array().unwrap().iter();
+    let axi: Vec<&Value> = axi.filter(|entry| entry["model"] == "axi").collect();
+    assert_eq!(axi.len(), 2);
+    for entry in axi {
+        let number = |value: &Value| value.as_f64().unwrap();
+        let value = number(&entry["depth_of_penetration_mm"]);
+        let row = [
+            significant(number(&entry["impact_velocity_m_s"]), 4),
+            significant(value, 4),
+            significant(number(&entry["band"]["high"]) - value, 2),
+        ];
+        let is_row = |line: &str| line.split_whitespace().take(3).eq(row.iter());
+        assert!(text.lines().any(is_row), "{row:?} is not in:\n{text}");
+    }
 }
 
 #[test]

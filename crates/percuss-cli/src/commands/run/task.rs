@@ -189,8 +189,8 @@ impl<'a> Task<'a> {
                 .flat_map(|answer| &answer.meshes);
             let cells = meshes.map(|mesh| mesh.cells_per_radius).max();
             let note = cells.map_or_else(String::new, |cells| format!("on {cells} cells"));
-            let names = [AXISYMMETRIC, note.as_str()];
-            files.extend(last.write_as(out, names, &run_output.scenario, quantity)?);
+            let scenario = &run_output.scenario;
+            files.extend(last.write_as(out, AXISYMMETRIC, &note, scenario, quantity)?);
         }
         if let Some(fields) = &mut self.fields {
             let (model, scenario) = (self.chosen.model, &run_output.scenario);

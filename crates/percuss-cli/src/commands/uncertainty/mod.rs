@@ -98,8 +98,8 @@ pub struct Uncertainty {
     /// Seed of the random numbers
     #[arg(long, value_name = "S", default_value = "0")]
     seed: u64,
-    /// Result to analyse, by its name in JSON; may be given several times. Only plate_cavity, plugging, awerbuch_bodner and
-    /// power_balance give ballistic_limit_m_s
+    /// Result to analyse, by its name in JSON; may be given several times. Each model has its own: `percuss models
+    /// NAME` lists them
     #[arg(long, value_name = "NAME")]
     #[arg(value_parser = PossibleValuesParser::new(uncertainty::quantities().map(|quantity| quantity.name)))]
     quantity: Vec<String>,
