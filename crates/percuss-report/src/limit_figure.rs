@@ -148,3 +148,35 @@ fn input_curve(chart: LineChart, models: &[&ModelLimit], symbol: usize) -> LineC
     let color = palette::symbol_color(symbol);
     chart.series(curve.style(Style::Dashed).color(color))
 }
+
+#[cfg(test)]
+mod tests {
+    use percuss::{
+        case,
+        limit::{Observer, Search, limits},
+        model,
+    };
+
+    use super::limit_figure;
+
+    #[test]
+    fn models_whose_points_coincide_share_an_entry() {
+        let text = "projectile = { material = '4340-johnson-cook', length = '40 mm', diameter = '20 mm', impact_velocity = '300 m/s' }\n\
+                    target = { material = 'weldox-460-e-borvik', thickness = '8 mm', back_face = 'free' }\n";
+        let scenario = case::load_str("case.toml", text).unwrap();
+        let models = [model::model("plugging").unwrap()];
+        let (search, mut observer) = (Search::default(), Observer::default());
+        let mut found = limits(&models, &scenario, &search, &mut observer).unwrap();
+        let mut twin = found.results[0].clone();
+        twin.model = "twin";
+        let mut other = twin.clone();
+        other.model = "other";
+        for point in &mut other.curve {
+            point.residual_velocity_m_s *= 1.05;
+        }
+        found.results.extend([twin, other]);
+        let svg = limit_figure(&scenario, &found).unwrap().svg;
+        assert!(svg.contains("plugging and twin, limit"), "{svg}");
+        assert!(svg.contains(">other, limit"), "{svg}");
+    }
+}

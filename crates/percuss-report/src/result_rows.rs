@@ -255,7 +255,39 @@ pub fn percentage(share: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::with_uncertainty;
+    use percuss::{
+        case,
+        outcome::{Outcome, RunResult, Termination},
+        summary::ResultRecord,
+    };
+
+    use super::{DIGITS, outcome_rows, with_uncertainty};
+
+    #[test]
+    fn a_velocity_at_rest_is_said_to_be_what_is_left() {
+        let text = "projectile = { material = 'copper', length = '12 mm', diameter = '5 mm', impact_velocity = '200 m/s' }\n\
+                    target = { material = 'aluminium-2024-t351', thickness = '50 mm' }\n";
+        let scenario = case::load_str("case.toml", text).unwrap();
+        for (outcome, velocity, words) in [
+            (
+                Outcome::AtRest,
+                4.0,
+                "4 m/s (motion left at the end of the run, 2.0 % of the impact velocity)",
+            ),
+            (Outcome::AtRest, 0.0, "0 m/s"),
+            (Outcome::Rebounded, -4.0, "-4 m/s (backwards)"),
+        ] {
+            let mut result = RunResult::new("chain", "", outcome, Termination::Quiescent);
+            result.residual_velocity = Some(velocity);
+            let record = ResultRecord::new(&scenario, &result);
+            let rows = outcome_rows(&scenario, &result, &record, DIGITS);
+            let (_, shown) = rows
+                .iter()
+                .find(|(label, _)| label == "residual velocity")
+                .unwrap();
+            assert_eq!(shown, words);
+        }
+    }
 
     #[test]
     fn an_uncertainty_is_rounded_up_to_the_last_digit_of_the_value() {

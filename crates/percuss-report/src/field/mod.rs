@@ -66,7 +66,7 @@ impl FinalField {
         scenario: &Scenario,
         quantity: FieldQuantity,
     ) -> Result<Vec<PathBuf>, ReportError> {
-        self.write_as(folder, [FIELD, ""], scenario, quantity)
+        self.write_as(folder, FIELD, "", scenario, quantity)
     }
 
     /// The same with another stem of the file names, and a note below the depth in the picture, such as `on 6 cells`.
@@ -77,7 +77,8 @@ impl FinalField {
     pub fn write_as(
         &self,
         folder: &Path,
-        [stem, note]: [&str; 2],
+        stem: &str,
+        note: &str,
         scenario: &Scenario,
         quantity: FieldQuantity,
     ) -> Result<Vec<PathBuf>, ReportError> {
