@@ -246,7 +246,7 @@ export class Impact {
     const frame = this.frame;
     if (!frame || !this.shown || !this.plan) return;
     const { head } = frame;
-    const depth = this.plan.wall === null ? `, crater floor at ${significant(head.depth_mm, 3)} mm` : "";
+    const depth = this.plan.wall === null ? `, ${significant(head.depth_mm, 3)} mm deep` : "";
     const label = this.plan.quantities[this.chosen()]?.label ?? "";
     const particles = head.bodies.reduce((sum, body) => sum + body.particles, 0);
     this.slider.setAttribute("aria-valuetext", `${head.time_us.toFixed(1)} µs`);
