@@ -69,7 +69,7 @@ impl FinalField {
         self.write_as(folder, FIELD, "", scenario, quantity)
     }
 
-    /// The same with another stem of the file names, and a note below the depth in the picture, such as `on 6 cells`.
+    /// The same with another stem of the file names, and a note below the depth in the picture, such as `now, on 6 cells`.
     ///
     /// # Errors
     /// Those of [`Self::write`].

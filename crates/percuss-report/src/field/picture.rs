@@ -104,7 +104,7 @@ impl Canvas {
         );
         if !self.colors.wall {
             let depth = format!(
-                "now {} mm deep",
+                "{} mm deep",
                 significant((points.depth * 1e5).round() / 1e2)
             );
             // A second line leaves the space above the numbers of the bar.

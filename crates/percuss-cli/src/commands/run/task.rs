@@ -188,7 +188,7 @@ impl<'a> Task<'a> {
                 .iter()
                 .flat_map(|answer| &answer.meshes);
             let cells = meshes.map(|mesh| mesh.cells_per_radius).max();
-            let note = cells.map_or_else(String::new, |cells| format!("on {cells} cells"));
+            let note = cells.map_or_else(String::new, |cells| format!("now, on {cells} cells"));
             let scenario = &run_output.scenario;
             files.extend(last.write_as(out, AXISYMMETRIC, &note, scenario, quantity)?);
         }
