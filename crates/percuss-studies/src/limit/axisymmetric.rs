@@ -58,6 +58,11 @@ pub struct LimitOnMesh {
 /// Narrowest bracket of a search within a budget, as a part of the velocity: meshes differ by more.
 const BRACKET: f64 = 0.005;
 
+/// Least uncertainty of a limit on so many cells per radius, as a part of it; it falls with the cell size. Failure localizes in bands narrower
+/// than a cell, and meshes may agree by chance: of eight plates, 3, 4 and 6 cells held the limit on 12 cells in four without it, in seven with it.
+const LEAST: f64 = 0.07;
+const LEAST_CELLS: f64 = 6.0;
+
 /// A range to search in before the whole of it, and how closely.
 type First = (Range, Scan);
 
@@ -212,7 +217,11 @@ fn of_meshes(reference: ReferenceMeshes, found: &[(u32, ModelLimit)]) -> Axisymm
         .collect();
     let widths = found.iter().filter_map(|(_, entry)| entry.bracket);
     let width = widths.map(|bracket| bracket.perforated_m_s - bracket.stopped_m_s);
-    let resolution = 0.5 * width.fold(0.0, f64::max);
+    let bracket = 0.5 * width.fold(0.0, f64::max);
+    let least = values.last().map_or(0.0, |finest| {
+        LEAST * LEAST_CELLS / finest.cells * finest.value
+    });
+    let resolution = bracket.max(least);
     let whole = found.len() == values.len();
     let limit = limit(&values, 0.0, resolution).filter(|_| whole);
     let reason = || {
