@@ -94,6 +94,38 @@ impl FromIterator<Particle> for Points<'_> {
     }
 }
 
+/// Bonds of a body that a model makes for a frame, one after the other.
+pub trait BondSource: std::fmt::Debug {
+    /// Them, in one order, between particles that are counted from a number on.
+    fn bonds(&self, first: u32) -> Box<dyn Iterator<Item = Bond> + '_>;
+}
+
+/// Bonds between particles.
+#[derive(Debug, Clone)]
+pub enum Bonds<'a> {
+    /// Those that a model has.
+    Kept(Cow<'a, [Bond]>),
+    /// Those that it makes, with the number of its first particle.
+    Made(&'a dyn BondSource, u32),
+}
+
+impl Default for Bonds<'_> {
+    /// None.
+    fn default() -> Self {
+        Self::Kept(Cow::Borrowed(&[]))
+    }
+}
+
+impl Bonds<'_> {
+    /// Them, in order.
+    pub fn iter(&self) -> Box<dyn Iterator<Item = Bond> + '_> {
+        match self {
+            Self::Kept(bonds) => Box::new(bonds.iter().copied()),
+            Self::Made(source, first) => source.bonds(*first),
+        }
+    }
+}
+
 /// Where a model has its fields.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
@@ -105,7 +137,7 @@ pub enum Fields<'a> {
         /// Particles of each body: the projectile, then the layers of the target.
         bodies: Vec<Points<'a>>,
         /// Bonds between particles; none of a model that has none.
-        bonds: Vec<Bond>,
+        bonds: Bonds<'a>,
         /// What particles in space have beside their plane; none of plane and axisymmetric bodies.
         across: Option<Across>,
     },

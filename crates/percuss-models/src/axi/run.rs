@@ -18,7 +18,7 @@ use crate::{
         Control,
         archive::Archive,
         driver::Drive,
-        frames::Fields,
+        frames::{Bonds, Fields},
         gauge::Gauge,
         interface::{Audit, BalanceTolerance, Extremes, Retry, Solver, slowed},
         limits::Limits,
@@ -261,7 +261,7 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
         Fields::Particles {
             cell: self.grid.mesh.cell,
             bodies: bodies.map(|body| body.particles().collect()).collect(),
-            bonds: Vec::new(),
+            bonds: Bonds::default(),
             across: None,
         }
     }

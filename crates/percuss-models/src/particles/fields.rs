@@ -41,12 +41,15 @@ pub(super) fn largest_tension([xx, zz, xz]: [f64; 3]) -> f64 {
 }
 
 /// All bonds of a body, whose particles are counted from a number on.
-pub(super) fn bonds<const D: usize>(body: &impl Bonded<D>, first: usize) -> Vec<Bond> {
+pub(super) fn bonds<const D: usize>(
+    body: &impl Bonded<D>,
+    first: u32,
+) -> impl Iterator<Item = Bond> {
     let mut numbers = vec![0_u32; body.row_count() * body.row_places()];
     for (number, at) in body.particles().enumerate() {
-        numbers[body.index(at)] = (first + number) as u32;
+        numbers[body.index(at)] = first + number as u32;
     }
-    let of = |bond: (usize, usize, usize)| {
+    let of = move |bond: (usize, usize, usize)| {
         let damage = body.softening().map_or(0.0, |law| {
             let damage = body.damage_of(bond);
             1.0 - law.integrity(damage.worst, damage.start)
@@ -56,10 +59,7 @@ pub(super) fn bonds<const D: usize>(body: &impl Bonded<D>, first: usize) -> Vec<
             damage: damage as f32,
         }
     };
-    // A vector that grows would take up to twice as much.
-    let mut bonds = Vec::with_capacity(body.bonds().count());
-    bonds.extend(body.bonds().map(of));
-    bonds
+    body.bonds().map(of)
 }
 
 /// State of the particle nearest to the axis in every row.

@@ -22,7 +22,7 @@ use crate::{
         Control, Particle,
         archive::Archive,
         driver::Drive,
-        frames::{Across, Fields, PointSource, Points},
+        frames::{Across, Bond, BondSource, Bonds, Fields, PointSource, Points},
         gauge::Gauge,
         interface::{Audit, BalanceTolerance, Extremes, Retry, Solver},
         limits::Limits,
@@ -150,6 +150,12 @@ impl<B: Bonded<D>, const D: usize> PointSource for Impact<'_, B, D> {
     fn points(&self) -> Box<dyn Iterator<Item = Particle> + '_> {
         let body = &self.body;
         Box::new((body.particles()).map(|(row, place)| body.particle(row, place)))
+    }
+}
+
+impl<B: Bonded<D>, const D: usize> BondSource for Impact<'_, B, D> {
+    fn bonds(&self, first: u32) -> Box<dyn Iterator<Item = Bond> + '_> {
+        Box::new(fields::bonds(&self.body, first))
     }
 }
 
@@ -386,14 +392,14 @@ impl<'a, B: Bonded<D>, const D: usize> Solver<'a> for Impact<'a, B, D> {
             bodies.push(Points::Kept(Cow::Owned(points)));
             across = beside;
         }
-        let before = bodies.iter().map(Points::len).sum();
+        let before: usize = bodies.iter().map(Points::len).sum();
         bodies.push(Points::Made(self));
         let of_body =
             (self.body.particles()).filter_map(|(row, place)| self.body.across(row, place));
         across.extend(of_body);
         Fields::Particles {
             cell: self.body.spacing(),
-            bonds: fields::bonds(&self.body, before),
+            bonds: Bonds::Made(self, before as u32),
             bodies,
             across: (D == 3).then(|| Across {
                 places: across,

@@ -9,7 +9,7 @@ use std::{fmt::Write as _, io::Write};
 use flate2::{Compression, write::ZlibEncoder};
 use percuss::{
     axi::Particle,
-    frames::{Across, Bond, Fields, Frame, Points},
+    frames::{Across, Bonds, Fields, Frame},
     history::ElementState,
 };
 use rayon::prelude::*;
@@ -17,6 +17,7 @@ use rayon::prelude::*;
 use super::FieldQuantity;
 
 pub(super) const MARKER: &[u8] = b"<AppendedData encoding=\"raw\">\n_";
+const END: &[u8] = b"\n</AppendedData>\n</VTKFile>\n";
 
 /// An array: name, components, and what it takes of a particle.
 type Column = (&'static str, usize, fn(&Particle) -> [f64; 3]);
@@ -44,6 +45,8 @@ pub(super) const SIDES: &str = "sides";
 pub(super) const SECTION: &str = "section";
 pub(super) const POINTS: &str = "points";
 pub(super) const BODY: &str = "body";
+const CONNECTIVITY: &str = "connectivity";
+const OFFSETS: &str = "offsets";
 const BOND_DAMAGE: &str = "bond_damage";
 
 /// A number of an element with its name.
@@ -56,33 +59,107 @@ const ELEMENT_COLUMNS: [ElementColumn; 4] = [
     ("temperature", |e| e.temperature),
 ];
 
-/// An array of a file: name, type, components and bytes, or its block.
+/// An array of a file: name, type, components and its block.
 type Array = (&'static str, &'static str, usize, Vec<u8>);
 
-/// Adds the bytes of numbers, rounded or exact.
-fn add_floats(bytes: &mut Vec<u8>, values: &[f64], exact: bool) {
-    for value in values {
-        let value = *value as f32;
-        let value = if exact { value } else { rounded(value) };
-        bytes.extend(value.to_le_bytes());
+/// Particles or bonds whose numbers are packed at a time.
+const AT_ONCE: usize = 1 << 15;
+
+/// An array that is packed as it grows, so that its numbers never stand in memory together.
+struct Packer {
+    name: &'static str,
+    kind: &'static str,
+    components: usize,
+    /// Bytes that are not packed yet.
+    pending: Vec<u8>,
+    /// Bytes that are.
+    size: usize,
+    encoder: ZlibEncoder<Vec<u8>>,
+}
+
+impl Packer {
+    fn new(name: &'static str, kind: &'static str, components: usize) -> Self {
+        Self {
+            name,
+            kind,
+            components,
+            pending: Vec::new(),
+            size: 0,
+            encoder: ZlibEncoder::new(Vec::new(), Compression::fast()),
+        }
+    }
+
+    fn floats(name: &'static str, components: usize) -> Self {
+        Self::new(name, "Float32", components)
+    }
+
+    fn integers(name: &'static str) -> Self {
+        Self::new(name, "Int32", 1)
+    }
+
+    /// Adds numbers, rounded or exact.
+    fn add_floats(&mut self, values: &[f64], exact: bool) {
+        for value in values {
+            let value = *value as f32;
+            let value = if exact { value } else { rounded(value) };
+            self.pending.extend(value.to_le_bytes());
+        }
+    }
+
+    fn add_integer(&mut self, value: i32) {
+        self.pending.extend(value.to_le_bytes());
+    }
+
+    fn pack(&mut self) {
+        self.size += self.pending.len();
+        // Writing to memory does not fail.
+        let _ = self.encoder.write_all(&self.pending);
+        self.pending.clear();
+    }
+
+    /// The array as VTK stores it: number of blocks, size of a block, size of a last smaller one, compressed size, data.
+    fn finish(mut self) -> Array {
+        self.pack();
+        let packed = self.encoder.finish().unwrap_or_default();
+        let head = [1, self.size as u32, 0, packed.len() as u32];
+        let mut block: Vec<u8> = head.into_iter().flat_map(u32::to_le_bytes).collect();
+        block.extend(packed);
+        (self.name, self.kind, self.components, block)
     }
 }
 
-/// Bytes of numbers, rounded or exact.
-fn floats(values: impl Iterator<Item = f64>, exact: bool) -> Vec<u8> {
-    let mut bytes = Vec::with_capacity(4 * values.size_hint().0);
+/// An array of numbers, rounded or exact.
+fn floats(
+    name: &'static str,
+    components: usize,
+    values: impl Iterator<Item = f64>,
+    exact: bool,
+) -> Packer {
+    let mut packer = Packer::floats(name, components);
     for value in values {
-        add_floats(&mut bytes, &[value], exact);
+        packer.add_floats(&[value], exact);
     }
-    bytes
+    packer
 }
 
-fn integers(values: impl Iterator<Item = i32>) -> Vec<u8> {
-    let mut bytes = Vec::with_capacity(4 * values.size_hint().0);
+fn integers(name: &'static str, values: impl Iterator<Item = i32>) -> Packer {
+    let mut packer = Packer::integers(name);
     for value in values {
-        bytes.extend(value.to_le_bytes());
+        packer.add_integer(value);
     }
-    bytes
+    packer
+}
+
+fn bytes(name: &'static str, bytes: Vec<u8>) -> Packer {
+    Packer {
+        pending: bytes,
+        ..Packer::new(name, "UInt8", 1)
+    }
+}
+
+/// The arrays, each packed.
+fn finished(packers: Vec<Packer>) -> Vec<Array> {
+    packers.into_par_iter().map(Packer::finish).collect()
 }
 
 /// The file of a frame.
@@ -93,28 +170,19 @@ pub(crate) fn encode(frame: &Frame<'_>) -> Vec<u8> {
     }
 }
 
-/// Arrays at particles, filled in one pass: no frame holds all particles.
-struct Arrays {
-    bodies: Vec<u8>,
-    velocities: Vec<u8>,
-    columns: [Vec<u8>; COLUMNS.len()],
-    places: Vec<u8>,
+/// Arrays at particles; the last one has their places.
+struct Particles {
+    count: usize,
+    arrays: Vec<Packer>,
 }
 
-impl Arrays {
+impl Particles {
     fn of(fields: &Fields<'_>, across: Option<&Across>) -> Self {
-        // Vectors that grow would take up to twice as much.
-        let count = match fields {
-            Fields::Particles { bodies, .. } => bodies.iter().map(Points::len).sum(),
-            _ => 0,
-        };
-        let empty = |components: usize| Vec::with_capacity(4 * components * count);
-        let mut arrays = Self {
-            bodies: Vec::with_capacity(count),
-            velocities: empty(3),
-            columns: COLUMNS.map(|(_, components, _)| empty(components)),
-            places: empty(3),
-        };
+        let mut bodies = Packer::new(BODY, "UInt8", 1);
+        let mut velocities = Packer::floats("velocity", 3);
+        let mut columns = COLUMNS.map(|(name, components, _)| Packer::floats(name, components));
+        let mut places = Packer::floats(POINTS, 3);
+        let mut count = 0;
         for (number, (body, particle)) in fields.particles().enumerate() {
             // Vectors of particles in space have a third component.
             let vector = |[x, z]: [f64; 2], part: usize| {
@@ -124,39 +192,38 @@ impl Arrays {
                     across.map_or(0.0, |across| across.places[number][part]),
                 ]
             };
-            arrays.bodies.push(body as u8);
-            add_floats(&mut arrays.velocities, &vector(particle.velocity, 1), false);
-            add_floats(&mut arrays.places, &vector(particle.position, 0), true);
-            for ((name, components, value), bytes) in COLUMNS.iter().zip(&mut arrays.columns) {
-                add_floats(bytes, &value(&particle)[..*components], *name == "volume");
+            bodies.pending.push(body as u8);
+            velocities.add_floats(&vector(particle.velocity, 1), false);
+            places.add_floats(&vector(particle.position, 0), true);
+            for ((name, components, value), column) in COLUMNS.iter().zip(&mut columns) {
+                column.add_floats(&value(&particle)[..*components], *name == "volume");
+            }
+            count = number + 1;
+            if count % AT_ONCE == 0 {
+                let others = [&mut bodies, &mut velocities, &mut places];
+                (columns.par_iter_mut().chain(others.into_par_iter())).for_each(Packer::pack);
             }
         }
-        arrays
+        let mut arrays = vec![bodies, velocities];
+        arrays.extend(columns);
+        arrays.push(places);
+        Self { count, arrays }
     }
 }
 
 fn encode_particles(frame: &Frame<'_>, fields: &Fields<'_>) -> Vec<u8> {
-    let (cell, bonds, across): (f64, &[Bond], Option<&Across>) = match fields {
+    let none = Bonds::default();
+    let (cell, bonds, across): (f64, &Bonds<'_>, Option<&Across>) = match fields {
         Fields::Particles {
             cell,
             bonds,
             across,
             ..
         } => (*cell, bonds, across.as_ref()),
-        _ => (0.0, &[], None),
+        _ => (0.0, &none, None),
     };
-    let arrays = Arrays::of(fields, across);
-    let count = arrays.bodies.len();
-    let mut data: Vec<Array> = vec![
-        (BODY, "UInt8", 1, arrays.bodies),
-        ("velocity", "Float32", 3, arrays.velocities),
-    ];
-    for ((name, components, _), bytes) in COLUMNS.into_iter().zip(arrays.columns) {
-        data.push((name, "Float32", components, bytes));
-    }
-    data.push((POINTS, "Float32", 3, arrays.places));
-    // Packed before there are arrays of bonds.
-    let mut data = packed(data);
+    let Particles { count, arrays } = Particles::of(fields, across);
+    let mut data = finished(arrays);
     let points = data.pop();
     let constants = [
         ("TimeValue", frame.time),
@@ -164,6 +231,12 @@ fn encode_particles(frame: &Frame<'_>, fields: &Fields<'_>) -> Vec<u8> {
         ("depth", frame.depth),
         (SECTION, across.map_or(0.0, |across| across.section)),
     ];
+    let vertices = Shapes::new(
+        ("Verts", 1),
+        integers(CONNECTIVITY, 0..count as i32),
+        integers(OFFSETS, std::iter::once(count as i32)),
+    );
+    let (lines, damage) = lines(bonds);
     assemble(File {
         // Bodies in a plane have no section.
         constants: &constants[..if across.is_some() { 4 } else { 3 }],
@@ -172,40 +245,35 @@ fn encode_particles(frame: &Frame<'_>, fields: &Fields<'_>) -> Vec<u8> {
             "PointData Scalars=\"plastic_strain\" Vectors=\"velocity\"",
             data,
         ),
-        cells: packed(bond_damage(bonds)),
-        shapes: std::iter::once(Shapes {
-            tag: "Verts",
-            count: 1,
-            connectivity: integers(0..count as i32),
-            offsets: integers(std::iter::once(count as i32)),
-        })
-        .chain((!bonds.is_empty()).then(|| lines(bonds)))
-        .collect(),
+        cells: damage,
+        shapes: std::iter::once(vertices).chain(lines).collect(),
     })
 }
 
-fn lines(bonds: &[Bond]) -> Shapes {
-    let mut connectivity = Vec::with_capacity(8 * bonds.len());
-    for end in bonds.iter().flat_map(|bond| bond.ends) {
-        connectivity.extend((end as i32).to_le_bytes());
-    }
-    Shapes {
-        tag: "Lines",
-        count: bonds.len(),
-        connectivity,
-        offsets: integers((1..=bonds.len() as i32).map(|line| 2 * line)),
-    }
-}
-
-/// Damage of the bonds, behind a value for the cell of all vertices.
-fn bond_damage(bonds: &[Bond]) -> Vec<Array> {
-    if bonds.is_empty() {
-        return Vec::new();
-    }
-    let damage = bonds.iter().map(|bond| f64::from(bond.damage));
+/// Bonds as lines, and their damage behind a value for the cell of all vertices; none of a body without bonds.
+fn lines(bonds: &Bonds<'_>) -> (Option<Shapes>, Vec<Array>) {
     // Rounded, a bond that nearly fails would look broken.
-    let values = floats(std::iter::once(0.0).chain(damage), true);
-    vec![(BOND_DAMAGE, "Float32", 1, values)]
+    let mut damage = floats(BOND_DAMAGE, 1, std::iter::once(0.0), true);
+    let mut connectivity = Packer::integers(CONNECTIVITY);
+    let mut offsets = Packer::integers(OFFSETS);
+    let mut count = 0;
+    for bond in bonds.iter() {
+        damage.add_floats(&[f64::from(bond.damage)], true);
+        for end in bond.ends {
+            connectivity.add_integer(end as i32);
+        }
+        count += 1;
+        offsets.add_integer(2 * count as i32);
+        if count % AT_ONCE == 0 {
+            let all = [&mut damage, &mut connectivity, &mut offsets];
+            all.into_par_iter().for_each(Packer::pack);
+        }
+    }
+    if count == 0 {
+        return (None, Vec::new());
+    }
+    let lines = Shapes::new(("Lines", count), connectivity, offsets);
+    (Some(lines), finished(vec![damage]))
 }
 
 fn encode_elements(frame: &Frame<'_>, elements: &[ElementState]) -> Vec<u8> {
@@ -222,27 +290,21 @@ fn encode_elements(frame: &Frame<'_>, elements: &[ElementState]) -> Vec<u8> {
     });
     let places = corners.flat_map(|[x, y]| [x, y, 0.0]);
     let bodies = elements.iter().map(|element| element.part as u8).collect();
-    let mut data: Vec<Array> = vec![(BODY, "UInt8", 1, bodies)];
+    let mut data = vec![bytes(BODY, bodies)];
     for (name, value) in ELEMENT_COLUMNS {
-        data.push((
-            name,
-            "Float32",
-            1,
-            floats(elements.iter().map(value), false),
-        ));
+        data.push(floats(name, 1, elements.iter().map(value), false));
     }
-    let mut points = packed(vec![(POINTS, "Float32", 3, floats(places, true))]);
+    let points = floats(POINTS, 3, places, true).finish();
     assemble(File {
         constants: &[("TimeValue", frame.time), ("depth", frame.depth)],
-        points: (4 * count, points.pop()),
-        data: ("CellData Scalars=\"plastic_strain\"", packed(data)),
+        points: (4 * count, Some(points)),
+        data: ("CellData Scalars=\"plastic_strain\"", finished(data)),
         cells: Vec::new(),
-        shapes: vec![Shapes {
-            tag: "Polys",
-            count,
-            connectivity: integers(0..4 * count as i32),
-            offsets: integers((1..=count as i32).map(|element| 4 * element)),
-        }],
+        shapes: vec![Shapes::new(
+            ("Polys", count),
+            integers(CONNECTIVITY, 0..4 * count as i32),
+            integers(OFFSETS, (1..=count as i32).map(|element| 4 * element)),
+        )],
     })
 }
 
@@ -262,16 +324,18 @@ struct File<'a> {
 struct Shapes {
     tag: &'static str,
     count: usize,
-    connectivity: Vec<u8>,
-    offsets: Vec<u8>,
+    /// Numbers of their points, and where each ends among them.
+    arrays: Vec<Array>,
 }
 
-/// The same arrays as blocks; each goes as it is packed.
-fn packed(arrays: Vec<Array>) -> Vec<Array> {
-    arrays
-        .into_par_iter()
-        .map(|(name, kind, components, bytes)| (name, kind, components, block(&bytes)))
-        .collect()
+impl Shapes {
+    fn new((tag, count): (&'static str, usize), connectivity: Packer, offsets: Packer) -> Self {
+        Self {
+            tag,
+            count,
+            arrays: finished(vec![connectivity, offsets]),
+        }
+    }
 }
 
 /// The file of its arrays.
@@ -283,12 +347,7 @@ fn assemble(file: File<'_>) -> Vec<u8> {
         .collect();
     let mut blocks: Vec<Array> = data.into_iter().chain(file.cells).collect();
     blocks.extend(file.points.1);
-    for shapes in file.shapes {
-        blocks.extend(packed(vec![
-            ("connectivity", "Int32", 1, shapes.connectivity),
-            ("offsets", "Int32", 1, shapes.offsets),
-        ]));
-    }
+    blocks.extend(file.shapes.into_iter().flat_map(|shapes| shapes.arrays));
     let mut offset = 0;
     let mut tags = Vec::new();
     for (name, kind, components, block) in &blocks {
@@ -338,10 +397,11 @@ fn assemble(file: File<'_>) -> Vec<u8> {
     text += "</Piece>\n</PolyData>\n";
     let mut bytes = text.into_bytes();
     bytes.extend(MARKER);
+    bytes.reserve_exact(offset + END.len());
     for (.., block) in blocks {
         bytes.extend(block);
     }
-    bytes.extend(b"\n</AppendedData>\n</VTKFile>\n");
+    bytes.extend(END);
     bytes
 }
 
@@ -354,22 +414,10 @@ fn rounded(value: f32) -> f32 {
     f32::from_bits((bits.saturating_add(half)) & !((1 << DROPPED) - 1))
 }
 
-/// An array as VTK stores it: number of blocks, size of a block, size of a last smaller one, compressed size, data.
-fn block(bytes: &[u8]) -> Vec<u8> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
-    // Writing to memory does not fail.
-    let packed = encoder
-        .write_all(bytes)
-        .and_then(|()| encoder.finish())
-        .unwrap_or_default();
-    let head = [1, bytes.len() as u32, 0, packed.len() as u32];
-    let mut block: Vec<u8> = head.into_iter().flat_map(u32::to_le_bytes).collect();
-    block.extend(packed);
-    block
-}
-
 #[cfg(test)]
 mod tests {
+    use percuss::frames::Bond;
+
     use super::{
         super::vtp_points::{decode, values},
         *,
@@ -406,7 +454,7 @@ mod tests {
                     .iter()
                     .map(|body| body.iter().copied().collect())
                     .collect(),
-                bonds: vec![bond(0, 1, 0.5), bond(1, 2, 1.0)],
+                bonds: Bonds::Kept(vec![bond(0, 1, 0.5), bond(1, 2, 1.0)].into()),
                 across: None,
             },
         };

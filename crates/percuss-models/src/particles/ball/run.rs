@@ -19,7 +19,7 @@ use crate::{
     solver::{
         Control, Particle,
         archive::Archive,
-        frames::{Fields, Points},
+        frames::{Bonds, Fields, Points},
         gauge::Gauge,
         interface::{Audit, BalanceTolerance, Extremes, Retry, Solver},
         limits::Limits,
@@ -273,7 +273,7 @@ impl<'a> Solver<'a> for Collision<'a> {
         let finite = balls.filter(|ball| ball.radius.is_finite());
         Fields::Particles {
             cell: 2.0 * self.projectile().radius / f64::from(POINTS),
-            bonds: Vec::new(),
+            bonds: Bonds::default(),
             bodies: finite
                 .map(|ball| Points::Kept(Cow::Owned(points(ball))))
                 .collect(),
