@@ -4,7 +4,12 @@ use super::{
     run::{Axisymmetric, materials},
     setup::{extent, is_thick},
 };
-use crate::{Scenario, material::Material, outcome::RunResult, problem::RearFaceCondition};
+use crate::{
+    Scenario,
+    material::Material,
+    outcome::RunResult,
+    problem::{Nose, RearFaceCondition},
+};
 
 /// Part of the energy lost between particles and grid that deserves a word.
 const TRANSFER: f64 = 0.1;
@@ -99,6 +104,15 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
     let can_fail = materials(run.scenario)
         .skip(1)
         .any(|(material, _)| material.damage.is_some());
+    let thickness = run.scenario.target_thickness().unwrap_or(f64::INFINITY);
+    let is_plate = thickness < PLATE * run.scenario.projectile.diameter;
+    if free && is_plate && can_fail && run.scenario.projectile.nose == Nose::Flat {
+        warnings.push(
+            "whether a plate fails under a blunt nose is uncertain: limits by `axi` are 1.2 to 2.1 times those of `power_balance`. Compare both by \
+             `percuss limit`"
+                .to_owned(),
+        );
+    }
     if free && is_thick(run.scenario) && options.damage.is_none() && can_fail {
         warnings.push(
             "the target accumulates damage, which is the default with a free rear face, and has a deeper crater than a target whose rear face \

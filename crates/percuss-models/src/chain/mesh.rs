@@ -212,6 +212,8 @@ fn assemble(
         interfaces: before[1..].iter().map(Before::interface).collect(),
         end,
         tip_friction: 0.0,
+        gaps: Vec::new(),
+        frictions: Vec::new(),
         tip: None,
         penetration: None,
         hold: None,
@@ -235,6 +237,9 @@ fn assemble(
     let mut start = -lengths[0];
     for (p, &length) in lengths.iter().enumerate() {
         let part = &state.parts[p];
+        if before[p].gap > 0.0 {
+            state.gaps.push([start, start + before[p].gap]);
+        }
         start += before[p].gap;
         let count = part.elements;
         let first_node = first_element + p;
@@ -316,6 +321,9 @@ fn assemble(
     // The boundary's own impedance stands for everything behind it, border shear included.
     if let (BoundaryCondition::Open { .. }, Some(last)) = (end, state.nodes.last_mut()) {
         last.friction = 0.0;
+    }
+    if !state.gaps.is_empty() {
+        state.frictions = state.nodes.iter().map(|node| node.friction).collect();
     }
     state
 }

@@ -1,9 +1,10 @@
 //! Separation and renewed contact of bodies, checked on the state of the chain.
 
-use super::{mesh, solver::StepControl, state::State};
+use super::{column::ColumnRun, mesh, solver::StepControl, state::State};
 use crate::{
     Scenario,
     case::{self, ArtificialViscosity},
+    solver::Control,
 };
 
 const CONTROL: StepControl = StepControl {
@@ -49,6 +50,33 @@ const LAYERS: &str = r#"
     { material = "4340", thickness = "4 mm", gap = "0.3 mm", column_diameter = "12 mm" },
     { material = "brittle", thickness = "3 mm", interface = "bonded" },
     { material = "copper", thickness = "6 mm", gap = "0.1 mm" }"#;
+
+/// A plug that flies through a gap is held by nothing: how wide the gap is makes no difference to what strikes the plate behind it.
+#[test]
+fn border_shear_does_not_act_in_a_gap() {
+    let residual = |gap: f64| {
+        let text = format!(
+            r#"
+            projectile = {{ material = "4340", length = "20 mm", diameter = "8 mm", impact_velocity = "900 m/s" }}
+            [target]
+            back_face = "free"
+            layers = [
+                {{ material = "6061-t6", thickness = "4 mm" }},
+                {{ material = "4340", thickness = "6 mm", gap = "{gap} mm" }},
+            ]
+            "#
+        );
+        let scenario = case::load_str("test", &text).unwrap();
+        let control = &mut Control::default();
+        let run = ColumnRun::new(&scenario, control).unwrap().run(control);
+        run.unwrap().residual_velocity.unwrap()
+    };
+    let [near, far] = [20.0, 100.0].map(residual);
+    assert!(
+        near > 300.0 && (far / near - 1.0).abs() < 0.01,
+        "{near} {far}"
+    );
+}
 
 /// How often ends had met, bodies had separated and elements had eroded when a time was over; the balances are checked in every step.
 fn run(scenario: &Scenario, control: &StepControl, until: f64) -> (State, usize) {

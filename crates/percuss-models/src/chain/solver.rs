@@ -134,6 +134,7 @@ impl State {
         let allowed = control.courant * control.damped(self.stable_step);
         let step = StepTimes::choose(self.time_step, allowed.min(control.longest_step));
         let (kick, time_step) = (step.kick, step.length);
+        self.release_in_gaps();
         self.collect_forces();
         self.collect_band_forces();
         self.apply_cohesive_traction();
@@ -157,6 +158,15 @@ impl State {
             self.split_failed_interfaces();
         }
         Ok(())
+    }
+
+    /// Takes border shear off what is in a gap: nothing around it holds it.
+    fn release_in_gaps(&mut self) {
+        for (node, &friction) in self.nodes.iter_mut().zip(&self.frictions) {
+            let is_between = |[from, to]: &[f64; 2]| *from < node.position && node.position < *to;
+            let is_free = self.gaps.iter().any(is_between);
+            node.friction = if is_free { 0.0 } else { friction };
+        }
     }
 
     fn collect_forces(&mut self) {

@@ -188,6 +188,11 @@ pub(super) struct State {
     /// Initial position of the last node [m].
     pub(super) back_position: f64,
 
+    /// Depths between which there is nothing around the target before the impact [m].
+    pub(super) gaps: Vec<[f64; 2]>,
+    /// Largest friction force on every node while it is not in a gap [N]; empty where there are none.
+    pub(super) frictions: Vec<f64>,
+
     pub(super) nodes: Vec<Node>,
     /// All elements, eroded ones too.
     pub(super) elements: Vec<Element>,
@@ -221,6 +226,7 @@ impl State {
             hold.archive(archive)?;
         }
         archive.item(&mut self.drag)?;
+        archive.item(&mut self.frictions)?;
         archive.item(&mut self.nodes)?;
         archive.item(&mut self.elements)?;
         archive.item(&mut self.time)?;

@@ -10,7 +10,7 @@ use super::{
     run_results,
 };
 use crate::{
-    Error, Scenario,
+    Error, Scenario, axi,
     axisymmetric::{MODEL, ReferenceMeshes, Request, limit, seconds, too_costly},
     model::{self, Model},
     richardson::OnMesh,
@@ -132,7 +132,16 @@ pub(super) fn on_meshes(
         before += cost;
         found.push((cells, entry));
     }
-    Ok(of_meshes(reference, &found))
+    let mut limit = of_meshes(reference, &found);
+    let cannot_fail = axi::layers_that_cannot_fail(scenario);
+    if let Some(reason) = limit.reason.as_mut().filter(|_| !cannot_fail.is_empty()) {
+        *reason = format!(
+            "{} has no `damage` in its record, so that it only stretches and thins, and no mesh or velocity gives its limit: give `damage`, or \
+             `axi.failure_strain`",
+            cannot_fail.join(", ")
+        );
+    }
+    Ok(limit)
 }
 
 /// Reports the progress of a part of a study, after some runs, as the share of the whole that it is.
