@@ -165,8 +165,8 @@ impl Model for CraterEnergy {
         match regime {
             ProjectileRegime::Rigid => {}
             ProjectileRegime::Deforming => result.warnings.push(
-                "the projectile deforms, and the energy that its own deformation takes is not taken off: the depth is an upper bound of \
-                 the model's class"
+                "the projectile deforms, and the energy that its own deformation takes is not taken off; the crater is as wide as in steady flow: \
+                 a narrower one is deeper"
                     .to_owned(),
             ),
             ProjectileRegime::Eroding => result.warnings.push(

@@ -43,11 +43,10 @@ impl Choice {
 /// Whether a model gives a result, and why if it does not.
 pub(super) type Given<'a> = Result<(), &'a str>;
 
-/// First choices for a regime: those that gave a result within their ranges of validity, those that gave one outside, and the others with the
-/// reason why not.
+/// First choices for a regime: those that gave a result within their ranges of validity, and the others with the reason why not. A model outside
+/// its own range is not recommended, even where there is no other.
 struct FirstChoices {
     given: Vec<Choice>,
-    outside: Vec<(Choice, String)>,
     missed: Vec<(&'static str, String)>,
 }
 
@@ -60,7 +59,6 @@ impl FirstChoices {
     ) -> Self {
         let mut choices = Self {
             given: Vec::new(),
-            outside: Vec::new(),
             missed: Vec::new(),
         };
         for (model, result) in models.iter().zip(results) {
@@ -70,7 +68,7 @@ impl FirstChoices {
             let mut ranges = model.validity().ranges.iter();
             match (result, ranges.find_map(|range| range.diagnostic(scenario))) {
                 (Ok(()), None) => choices.given.push(choice),
-                (Ok(()), Some(reason)) => choices.outside.push((choice, reason)),
+                (Ok(()), Some(reason)) => choices.missed.push((choice.model, reason)),
                 (Err(reason), _) => choices.missed.push((choice.model, (*reason).to_owned())),
             }
         }
@@ -85,7 +83,7 @@ pub fn recommend(
     regime: &Regime,
     results: &[Given<'_>],
 ) -> Recommendation {
-    let mut own = FirstChoices::of(models, scenario, regime, results);
+    let own = FirstChoices::of(models, scenario, regime, results);
     let neighbour: Option<(ProjectileRegime, Vec<Choice>)> = regime.neighbour.map(|neighbour| {
         let regime = Regime {
             projectile: neighbour,
@@ -96,13 +94,6 @@ pub fn recommend(
         (neighbour, choices)
     });
     let neighbour = neighbour.filter(|(_, choices)| !choices.is_empty());
-    if own.given.is_empty() && neighbour.is_none() {
-        // Nothing better: their results come with a warning.
-        own.given = own.outside.drain(..).map(|(choice, _)| choice).collect();
-    }
-    let outside = own.outside.into_iter();
-    own.missed
-        .extend(outside.map(|(choice, reason)| (choice.model, reason)));
     let mut notes: Vec<String> = own
         .missed
         .iter()
