@@ -1,12 +1,17 @@
 //! A ballistic limit in words: the one to use, and the axisymmetric one.
 
-use percuss::{limit::Limits, units::significant};
+use percuss::{
+    limit::{LimitRange, Limits},
+    units::significant,
+};
 
 use crate::result_rows::with_uncertainty;
 
-/// The limit to use, and how far to trust it.
+/// The limit to use, and how far to trust it; the range of all where no model is recommended.
 pub fn limit_headline(limits: &Limits) -> Option<String> {
-    let choice = limits.recommended.first()?;
+    let Some(choice) = limits.recommended.first() else {
+        return limits.range.map(|range| unrecommended(limits, &range));
+    };
     let line = match limits.results.iter().find(|l| l.model == choice.model) {
         Some(entry) => {
             let value = entry.ballistic_limit_m_s?;
@@ -29,6 +34,20 @@ pub fn limit_headline(limits: &Limits) -> Option<String> {
         ),
     };
     Some(line)
+}
+
+/// The limits of models of which none is recommended.
+fn unrecommended(limits: &Limits, range: &LimitRange) -> String {
+    let [low, high] = [range.lowest_m_s, range.highest_m_s].map(|limit| significant(limit, 4));
+    let mut found = (limits.results.iter()).filter(|entry| entry.ballistic_limit_m_s.is_some());
+    match (found.next(), range.models) {
+        (Some(entry), 1) => format!(
+            "Ballistic limit {low} m/s ({}), model error not known{}",
+            entry.model,
+            from_measured(limits, range.lowest_m_s)
+        ),
+        _ => format!("Ballistic limit {low} to {high} m/s: no model is recommended"),
+    }
 }
 
 /// What stands in place of an error that is not known: the range of all limits.
