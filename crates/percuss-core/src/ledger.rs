@@ -64,7 +64,7 @@ impl EnergyLedger {
             ("border shear", self.border_shear),
             ("viscosity and damping", self.viscous),
             ("contact", self.contact),
-            ("through rear face or edge", self.boundary),
+            ("through rear face", self.boundary),
             ("eroded", self.eroded),
             ("fracture", self.fracture),
             ("kinetic, plate", self.kinetic_plate),

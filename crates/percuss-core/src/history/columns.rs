@@ -81,7 +81,7 @@ pub static SAMPLE_COLUMNS: &[HistoryColumn<Sample>] = columns! { Sample:
     "energy_border_shear" J Number energy.border_shear, "Work against border shear, a shear band, or a constant pressure.";
     "energy_viscosity_and_damping" J Number energy.viscous, "Work against artificial viscosity and damping.";
     "energy_contact" J Number energy.contact, "Loss where free ends meet; it vanishes with the element mass.";
-    "energy_through_rear_face" J Number energy.boundary, "Energy that left through a non-reflecting rear face.";
+    "energy_through_rear_face" J Number energy.boundary, "Energy that left through a non-reflecting rear face, or through the edge of the modelled target.";
     "energy_eroded" J Number energy.eroded, "Energy that eroded elements carried away.";
     "energy_fracture" J Number energy.fracture, "Fracture energy of cracks.";
     "energy_kinetic_plate" J Number energy.kinetic_plate, "Kinetic energy of the plate around a plug.";
