@@ -10,12 +10,23 @@ use crate::diagnostic;
 
 /// Processor time from which the cost is told [s].
 const NOTABLE: f64 = 30.0;
+/// Processor time from which a cheaper way is told [s].
+const LONG: f64 = 60.0;
 
 /// Tells on standard error what a computation will cost, if that is much.
 pub fn tell(estimate: Estimate, quiet: bool) {
-    if let Some(words) = note(estimate).filter(|_| !quiet) {
-        diagnostic::print(&format!("note: {words}\n"));
+    tell_with(estimate, "", quiet);
+}
+
+/// The same, with a cheaper way where the computation takes more than a minute; none where that is empty.
+pub fn tell_with(estimate: Estimate, cheaper: &str, quiet: bool) {
+    let Some(mut words) = note(estimate).filter(|_| !quiet) else {
+        return;
+    };
+    if estimate.seconds > LONG && !cheaper.is_empty() {
+        words += &format!("; {cheaper}");
     }
+    diagnostic::print(&format!("note: {words}\n"));
 }
 
 fn note(estimate: Estimate) -> Option<String> {

@@ -61,7 +61,10 @@ pub(super) fn unknown_choice(
     again: &Reader<'_>,
     error: &toml::de::Error,
 ) -> Option<Reworded> {
-    if !error.message().starts_with("wanted exactly 1 element, more") {
+    if !error
+        .message()
+        .starts_with("wanted exactly 1 element, more")
+    {
         return None;
     }
     let root: Table = text.parse().ok()?;

@@ -54,6 +54,21 @@ pub(super) fn curve_starts_elsewhere(
     })
 }
 
+/// Part of 1 by which `a` of a fitted curve may exceed 1, for rounding.
+const ROUNDING: f64 = 1e-3;
+
+/// Says that a fitted curve leaves faster than it arrives.
+pub(super) fn curve_gains_velocity(fit: Option<LambertJonasFit>) -> Option<String> {
+    let a = fit?.a;
+    (a > 1.0 + ROUNDING).then(|| {
+        format!(
+            "the curve through the residual velocities has a = {}: above 1 the fit is not physical, a fast projectile would leave faster than it \
+             arrived; do not use it beyond the computed velocities",
+            significant(a, 4)
+        )
+    })
+}
+
 /// Says that faster runs are stopped, or that slower ones perforate.
 pub(super) fn not_monotone(samples: &[Sample<LimitRun>], above: usize) -> Option<String> {
     let (low, high) = samples.split_at(above);
