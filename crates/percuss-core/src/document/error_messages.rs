@@ -222,6 +222,12 @@ fn wrong_type(message: &str, source: &str) -> Option<Reworded> {
                 "",
             ));
         }
+        _ if message.starts_with("expected table, found ") => {
+            return Some(says(
+                format!("a table is due here, not {}", shorten(source)),
+                "",
+            ));
+        }
         "expected empty table" => {
             return Some(says(
                 "no parameters are allowed here",

@@ -117,3 +117,29 @@ pub(super) fn velocities_without_answer(samples: &[Sample<LimitRun>]) -> Option<
     };
     decided.then(|| format!("{range} the model gives no answer: {reason}"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_above_the_impact_velocity_is_not_physical() {
+        let of = |a: f64| {
+            curve_gains_velocity(Some(LambertJonasFit {
+                a,
+                p: 2.0,
+                ballistic_limit_m_s: 200.0,
+                rms_m_s: 1.0,
+            }))
+        };
+        assert_eq!(
+            (of(0.9), of(1.0005), curve_gains_velocity(None)),
+            (None, None, None)
+        );
+        let words = of(1.234_56).unwrap();
+        assert!(
+            words.contains("a = 1.235: above 1 the fit is not physical"),
+            "{words}"
+        );
+    }
+}
