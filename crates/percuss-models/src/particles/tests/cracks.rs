@@ -58,7 +58,7 @@ fn a_notch_cuts_the_bonds_that_it_crosses_and_no_others() {
             (Some(0.0), None, None)
         );
         // In files the same bonds are broken, between the particles as numbered there.
-        let shown = fields::bonds(&body, 100);
+        let shown: Vec<_> = fields::bonds(&body, 100).collect();
         let numbers: Vec<(usize, usize)> = body.particles().collect();
         assert_eq!(shown.len(), body.bonds().count());
         for (bond, shown) in body.bonds().zip(shown) {
