@@ -23,6 +23,7 @@ mod terminal;
 mod test_data;
 mod unit_system;
 mod validation_table;
+mod whole_numbers;
 mod workers;
 
 use std::{

@@ -1,7 +1,7 @@
 //! Output folder of a run: copy of the case, result, histories and figures.
 
 use std::{
-    fs,
+    fs, io,
     path::{Path, PathBuf},
     sync::{Mutex, PoisonError},
 };
@@ -24,17 +24,30 @@ const CASE_COPY: &str = "case-as-run.toml";
 /// Makes a folder and its parents, if they do not exist.
 pub fn make_folder(path: &Path) -> Result<(), Failure> {
     fs::create_dir_all(path).map_err(|error| {
-        let reason = if path.exists() {
-            "it exists and is not a folder".to_owned()
+        let (reason, help) = if path.exists() {
+            let reason = "it exists and is not a folder";
+            (reason.to_owned(), "give another folder".to_owned())
         } else {
-            error.to_string()
+            (error.to_string(), help_for_folder(error.kind()))
         };
         Failure::Write {
             path: path.to_path_buf(),
             reason,
-            help: String::new(),
+            help,
         }
     })
+}
+
+/// Help for a folder that cannot be made.
+fn help_for_folder(kind: io::ErrorKind) -> String {
+    let why = match kind {
+        io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists => {
+            "a part of its path is a file: "
+        }
+        io::ErrorKind::PermissionDenied => "you may not write there: ",
+        _ => "",
+    };
+    format!("{why}give a folder that can be made, or one that you may write to")
 }
 
 /// Whether a result has time histories.

@@ -214,9 +214,9 @@ mod tests {
         assert!(matches!(error("300..200:3"), SpeedsError::NotRising { .. }));
         assert!(matches!(error("300..300:3"), SpeedsError::NotRising { .. }));
         assert_eq!(
-            error("200 mph"),
+            error("200 knots"),
             SpeedsError::UnknownUnit {
-                unit: "mph".to_owned()
+                unit: "knots".to_owned()
             }
         );
         assert_eq!(error("20 km/s"), SpeedsError::OutOfRange(20_000.0));
@@ -224,7 +224,7 @@ mod tests {
         assert_eq!(error("1e999"), not_a_number("1e999"));
         assert!(error("200..300").to_string().contains("200..1500:27"));
         assert!(
-            error("200 mph")
+            error("200 knots")
                 .to_string()
                 .contains("m/s, km/s, km/h, ft/s")
         );

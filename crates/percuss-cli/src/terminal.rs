@@ -50,11 +50,7 @@ pub fn yellow(text: impl Display) -> String {
 
 /// Title of a case, or its name, as one line.
 pub fn title(scenario: &Scenario) -> String {
-    let title = match scenario.title.is_empty() {
-        true => &scenario.name,
-        false => &scenario.title,
-    };
-    format!("{}\n", bold(wrap(title, width(), 0)))
+    format!("{}\n", bold(wrap(scenario.heading(), width(), 0)))
 }
 
 /// A paragraph of running text.

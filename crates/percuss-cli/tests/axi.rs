@@ -183,6 +183,52 @@ fn options_of_fields_are_refused_where_there_are_none() {
     assert!(said.contains("for example 60s"), "{said}");
 }
 
+/// What a study refines is what its table and its figures have.
+#[test]
+fn a_study_of_meshes_counts_cells_per_radius() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = case(folder.path(), &format!("title = 'A short rod'\n{CASE}"));
+    let out = folder.path().join("out");
+    let out = out.to_str().unwrap();
+    let line = [
+        "converge", &*path, "--model", "axi", "--levels", "3", "--out", out,
+    ];
+    let study = percuss(folder.path(), line);
+    assert_eq!(study.code, 0, "{}", study.stderr);
+    assert!(
+        flat(&study.stdout).contains("cells per"),
+        "{}",
+        study.stdout
+    );
+    assert!(!study.stdout.contains("elements"), "{}", study.stdout);
+    let json = fs::read_to_string(format!("{out}/convergence.json")).unwrap();
+    assert!(json.contains("\"cells_per_radius\": 12"), "{json}");
+    for entry in fs::read_dir(out).unwrap() {
+        let file = entry.unwrap().path();
+        if file.extension().is_some_and(|end| end == "svg") {
+            let svg = fs::read_to_string(&file).unwrap();
+            assert!(svg.contains("Cells per radius of the projectile"));
+            assert!(svg.contains(": A short rod"), "{}", file.display());
+        }
+    }
+}
+
+#[test]
+fn a_gap_is_refused_with_what_to_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let layers = "layers = [{ material = \"4340\", thickness = \"4 mm\" }, { material = \"4340\", thickness = \"4 mm\", gap = \"9 mm\" }]";
+    let plate = "material = \"aluminium-2024-t351\", thickness = \"4 mm\"";
+    let path = case(folder.path(), &CASE.replace(plate, layers));
+    let run = percuss(folder.path(), ["run", &*path, "--model", "axi"]);
+    assert_eq!(run.code, 2, "{}", run.stderr);
+    let said = flat(&run.stderr);
+    assert!(said.contains("without a gap"), "{said}");
+    assert!(
+        said.contains("help: use the model `chain`, or give one layer"),
+        "{said}"
+    );
+}
+
 /// A case that would fill the machine is refused before anything is allocated; the limit is the user's.
 #[test]
 fn a_run_that_would_fill_the_memory_is_refused_at_once() {

@@ -195,7 +195,7 @@ fn speeds_that_are_none_are_refused_with_what_is_allowed() {
         ("200..1500", "the range has no number of velocities"),
         ("1500..200:27", "not above its start"),
         ("200..1500:1", "`1` is not a number of velocities"),
-        ("200 mph", "`mph` is not a unit of velocity"),
+        ("200 knots", "`knots` is not a unit of velocity"),
         ("20 km/s", "20000 m/s is out of range"),
         ("-5", "-5 m/s is out of range"),
     ] {

@@ -115,6 +115,7 @@ fn materials_are_searched_by_words() {
     for (words, part) in [
         (&["--group", "cheese"][..], "'cheese'"),
         (&["--hardness", "350"], "FROM..TO"),
+        (&["--hardness", "400..200"], "reversed: write 200..400"),
         (&["--hardness", "1..2"], "no material fits --group"),
         (&["--family", "ofhc-coper"], "did you mean `ofhc-copper`?"),
         (&["tin", "--group", "steel"], "that the options leave"),

@@ -243,6 +243,7 @@ fn a_folder_that_cannot_be_written_is_said_before_the_run() {
         assert_eq!((said.code, said.stdout.as_str()), (4, ""));
         let start = format!("error: cannot write `{out}`: ");
         assert!(said.stderr.starts_with(&start), "{}", said.stderr);
+        assert!(said.stderr.contains("\nhelp: "), "{}", said.stderr);
     }
 }
 

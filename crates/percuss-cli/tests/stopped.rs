@@ -8,7 +8,7 @@ use std::{
     time::Duration,
 };
 
-use crate::support::{CASE, folder_with, json, shot};
+use crate::support::{CASE, folder_with, json, ok, shot};
 
 /// A plate of a few hundred particles, which breaks.
 const PLATE: &str = r#"
@@ -52,6 +52,24 @@ fn a_stopped_study_keeps_its_complete_packings() {
         "error: the study was stopped after {complete} of 1000 packings; their results stand"
     );
     assert!(stderr.contains(&said), "{stderr}");
+}
+
+/// A script has means and deviations on the line of the first packing.
+#[test]
+fn a_quiet_study_has_means_and_deviations() {
+    let folder = shot(PLATE);
+    let options = ["run", "shot.toml", "--model", "particles", "--seeds", "2"];
+    let line = ok(folder.path(), &[&options[..], &["--quiet"]].concat());
+    let study = json(&ok(folder.path(), &[&options[..], &["--json"]].concat()))["seeds"].clone();
+    assert_eq!(line.lines().count(), 1, "{line}");
+    assert!(line.contains(" packings=2 "), "{line}");
+    let numbers = study["numbers"].as_array().unwrap();
+    let force = numbers.iter().find(|of| of["name"] == "peak_force_kn");
+    for key in ["mean", "standard_deviation"] {
+        let value = force.unwrap()[key].as_f64().unwrap();
+        let pair = format!(" peak_force_kn_{key}={value}");
+        assert!(line.contains(&pair), "{pair} is not in {line}");
+    }
 }
 
 /// The same of the meshes of a study of convergence.

@@ -233,12 +233,14 @@ fn a_folder_of_another_sweep_is_refused() {
     let case = CASE.replace("25 mm", "26 mm");
     fs::write(folder.path().join("scenario.toml"), case).unwrap();
     refused("computed from a base case that says something else");
-    let said = sweep(&folder, &["status", "."]);
-    assert!(
-        said.code == 2 && said.stderr.contains("no manifest.json"),
-        "{}",
-        said.stderr
-    );
+    for (path, words) in [(".", "no manifest.json"), ("random.toml", "this is a file")] {
+        let said = sweep(&folder, &["status", path]);
+        assert!(
+            said.code == 2 && said.stderr.contains(words),
+            "{}",
+            said.stderr
+        );
+    }
 }
 
 #[test]

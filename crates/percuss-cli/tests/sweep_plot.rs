@@ -121,6 +121,19 @@ fn count(svg: &str, before: &str, after: char) -> u64 {
 }
 
 #[test]
+fn the_title_of_a_figure_is_that_of_the_sweep_or_of_its_case() {
+    let case = format!("title = 'A rod of copper'\n{CASE}");
+    for (title, expected) in [("", "A rod of copper"), ("title = 'Speeds'", "Speeds")] {
+        let text = format!("base = 'scenario.toml'\ndesign = 'grid'\n{title}\n{SPEEDS}");
+        let folder = folder_with(&[("scenario.toml", &case), ("sweep.toml", &text)]);
+        let arguments = ["sweep", "sweep.toml", "--out", "rows", "--quiet"];
+        assert_eq!(percuss(folder.path(), arguments).code, 0);
+        let svg = drawn(&folder, &[], &format!("curves-{DEPTH}"));
+        assert!(svg.contains(&format!(">{expected}</text>")), "{title}");
+    }
+}
+
+#[test]
 fn a_request_that_does_not_fit_is_refused_with_what_does() {
     let folder = computed("design = 'grid'", &[SPEEDS]);
     let refused = |more: &[&str], words: [&str; 2]| {
@@ -136,12 +149,19 @@ fn a_request_that_does_not_fit_is_refused_with_what_does() {
         &["--quantity", "depth"],
         [
             "the sweep has no result `depth`",
-            "depth_of_penetration_mm, largest_depth_mm",
+            "did you mean `depth_of_penetration_mm`?",
         ],
     );
     refused(
         &["--quantity", "peak_force"],
         ["no result `peak_force`", "did you mean `peak_force_kn`?"],
+    );
+    refused(
+        &["--x", "impact_velocity"],
+        [
+            "does not vary `impact_velocity`",
+            "did you mean `projectile.impact_velocity`?",
+        ],
     );
     refused(
         &["--x", "target.thickness"],

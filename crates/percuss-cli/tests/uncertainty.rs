@@ -210,7 +210,7 @@ fn what_cannot_be_computed_is_refused() {
     for (arguments, part) in [
         (
             &["case.toml", "--samples", "15"][..],
-            "15 is not in 16..=1048576",
+            "a number of samples is a whole number from 16 to 1048576",
         ),
         (
             &["case.toml", "--quantity", "depth"],

@@ -192,7 +192,11 @@ impl Regime {
                 (pressure, resistance, density)
             }
         };
-        let _ = write!(because, " against its flow stress of {}", shown(strength));
+        let against = match pressure.is_finite() {
+            true => " against its flow stress of",
+            false => ", the projectile does, at a flow stress of",
+        };
+        let _ = write!(because, "{against} {}", shown(strength));
         let stays_rigid = pressure < strength;
         let stress_is_close =
             pressure < STRESS_EDGE * strength && pressure * STRESS_EDGE > strength;

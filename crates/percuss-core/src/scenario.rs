@@ -176,6 +176,14 @@ pub struct Plate {
 }
 
 impl Scenario {
+    /// Its title, or its name where it has none.
+    pub fn heading(&self) -> &str {
+        match self.title.trim().is_empty() {
+            true => &self.name,
+            false => &self.title,
+        }
+    }
+
     /// The same case at another impact velocity [m/s].
     pub fn at_impact_velocity(&self, impact_velocity: f64) -> Self {
         let mut other = Self {

@@ -145,10 +145,11 @@ impl ValidityDomain {
                 ..
             } = scenario.target
         {
-            return Applicability::refused(
-                "it takes layers that lie on each other, without a gap, an `interface` or a `column_diameter` of their own"
-                    .to_owned(),
+            let refusal = Refusal::new(
+                "it takes layers that lie on each other, without a gap, an `interface` or a `column_diameter` of their own",
             );
+            let remedy = "use the model `chain`, or give one layer, or layers without these keys";
+            return Applicability::refused(refusal.with_remedy(remedy));
         }
         if scenario.resistance.is_some() && !self.own_resistance {
             let refusal = Refusal::new("it takes no resistance law of the caller's own");

@@ -7,7 +7,7 @@ use crate::{
     names::{result_column, with_unit},
 };
 
-/// Draws one quantity of a study versus the number of elements along the projectile.
+/// Draws one quantity of a study versus the number of elements along the projectile, or of cells per its radius.
 pub fn convergence_figure(case: &str, study: &MeshStudy, quantity: usize) -> Option<Figure> {
     convergence_chart(case, study, quantity).map(|chart| chart.draw())
 }
@@ -15,16 +15,25 @@ pub fn convergence_figure(case: &str, study: &MeshStudy, quantity: usize) -> Opt
 /// The chart that [`convergence_figure`] draws.
 pub fn convergence_chart(case: &str, study: &MeshStudy, quantity: usize) -> Option<Chart> {
     let quantity = study.quantities.get(quantity)?;
+    let words = study.describe(quantity);
     let (name, _) = result_column(quantity.name);
-    let points = study
-        .meshes
-        .iter()
-        .map(|mesh| mesh.projectile_elements as f64)
-        .zip(quantity.values.iter().copied());
+    let cells = study.meshes.iter().map(|mesh| mesh.cells_per_radius);
+    let (along, meshes): (_, Vec<f64>) = match cells.collect::<Option<Vec<u32>>>() {
+        Some(cells) => (
+            "Cells per radius of the projectile",
+            cells.into_iter().map(f64::from).collect(),
+        ),
+        None => {
+            let meshes = study.meshes.iter();
+            let elements = meshes.map(|mesh| mesh.projectile_elements as f64);
+            ("Elements along the projectile", elements.collect())
+        }
+    };
+    let points = meshes.into_iter().zip(quantity.values.iter().copied());
     let mut chart = LineChart::new(
         format!("convergence-{}", quantity.name.replace('_', "-")),
         format!("Convergence of the {name}: {case}"),
-        Axis::new("Elements along the projectile").log(),
+        Axis::new(along).log(),
         Axis::new(with_unit(&name, quantity.unit)),
     )
     .series(Series::new("computed", points).style(Style::LineAndMarkers));
@@ -37,5 +46,5 @@ pub fn convergence_chart(case: &str, study: &MeshStudy, quantity: usize) -> Opti
             richardson,
         ));
     }
-    Some(chart.caption(quantity.status.describe()).into())
+    Some(chart.caption(words).into())
 }

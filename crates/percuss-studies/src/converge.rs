@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::{
-    Error, Scenario,
+    Error, Scenario, axisymmetric,
     model::{Control, Model, run},
     outcome::RunResult,
     richardson::{CREDIBLE_ORDERS, OnMesh, Trend, extrapolate, trend},
@@ -19,6 +19,8 @@ const SAFETY: f64 = 1.25;
 const AGREEMENT: f64 = 1e-3;
 /// Part of the finest value below which an extrapolated one is no result but the mesh.
 const VANISHING: f64 = 0.1;
+/// Cells per radius of the coarsest mesh that is advised.
+const COARSE_CELLS: u32 = 3;
 /// Largest difference of the orders of two successive triples of meshes in the asymptotic range.
 const SAME_ORDER: f64 = 0.5;
 
@@ -38,6 +40,9 @@ pub struct Mesh {
     pub projectile_elements: usize,
     /// Elements through the target.
     pub target_elements: usize,
+    /// Cells per radius of the projectile, which the axisymmetric model refines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cells_per_radius: Option<u32>,
     /// Time steps taken.
     pub steps: u64,
 }
@@ -215,6 +220,9 @@ impl ConvergenceStatus {
     }
 }
 
+/// Advice where three meshes confirm no order.
+const FOURTH_MESH: &str = "run `--levels 4`";
+
 /// Why an observed order confirms nothing, and what to do.
 fn doubt(order: f64, earlier: Option<f64>, meshes: usize) -> String {
     if order < *CREDIBLE_ORDERS.start() {
@@ -227,7 +235,7 @@ fn doubt(order: f64, earlier: Option<f64>, meshes: usize) -> String {
     }
     match earlier {
         None if meshes <= 3 => {
-            format!("three meshes give one order ({order:.2}); run `--levels 4`")
+            format!("three meshes give one order ({order:.2}); {FOURTH_MESH}")
         }
         None => format!(
             "order {order:.2} on the finest meshes, none on the coarser ones; refine further"
@@ -288,9 +296,14 @@ const QUANTITIES: [&str; 5] = [
 impl MeshStudy {
     /// The study of a case's results on meshes from coarse to fine; results without a mesh are left out.
     pub fn new(scenario: &Scenario, results: &[RunResult]) -> Self {
+        let mut factor: u32 = 1;
         let meshes = results.iter().filter_map(|result| {
+            let cells = scenario.options.axi.cells_per_radius();
+            let cells = cells.saturating_mul(factor);
+            factor = factor.saturating_mul(REFINEMENT);
             let numerics = result.numerics.as_ref()?;
             Some(Mesh {
+                cells_per_radius: (result.model == axisymmetric::MODEL).then_some(cells),
                 projectile_elements: numerics.elements.0,
                 target_elements: numerics.elements.1,
                 steps: numerics.steps,
@@ -313,6 +326,25 @@ impl MeshStudy {
         Self {
             meshes: meshes.collect(),
             quantities,
+        }
+    }
+
+    /// The status of a quantity in words, with the advice that fits the cost of its model.
+    pub fn describe(&self, quantity: &Quantity) -> String {
+        let words = quantity.status.describe();
+        let cells = |mesh: Option<&Mesh>| mesh.and_then(|mesh| mesh.cells_per_radius);
+        let ends = cells(self.meshes.first()).zip(cells(self.meshes.last()));
+        let Some((coarsest, finest)) = ends else {
+            return words;
+        };
+        // Four meshes up to the finest one cost what these did.
+        let start = (finest / REFINEMENT.pow(3)).max(COARSE_CELLS);
+        match start < coarsest {
+            true => words.replace(
+                FOURTH_MESH,
+                &format!("run `--levels 4` from `axi.cells_per_radius = {start}` on"),
+            ),
+            false => words,
         }
     }
 }
@@ -360,6 +392,47 @@ mod tests {
             words.contains("not confirmed: three meshes give one order (2.00); run `--levels 4`"),
             "{words}"
         );
+    }
+
+    #[test]
+    fn a_fourth_axisymmetric_mesh_is_coarser() {
+        let words = |coarsest: Option<u32>| {
+            let values = second_order(3);
+            let mesh = |level: u32| Mesh {
+                projectile_elements: 8 << level,
+                target_elements: 8 << level,
+                cells_per_radius: coarsest.map(|cells| cells << level),
+                steps: 1,
+            };
+            let quantity = Quantity {
+                name: "depth_of_penetration",
+                unit: "mm",
+                status: ConvergenceStatus::of(&values).unwrap(),
+                values,
+            };
+            let study = MeshStudy {
+                meshes: (0..3).map(mesh).collect(),
+                quantities: vec![quantity],
+            };
+            study.describe(&study.quantities[0])
+        };
+        for (coarsest, advice) in [
+            (None, "run `--levels 4`"),
+            (
+                Some(8),
+                "run `--levels 4` from `axi.cells_per_radius = 4` on",
+            ),
+            (
+                Some(4),
+                "run `--levels 4` from `axi.cells_per_radius = 3` on",
+            ),
+            (Some(3), "run `--levels 4`"),
+        ] {
+            let words = words(coarsest);
+            assert!(words.contains(advice), "{coarsest:?}: {words}");
+            let is_plain = !words.contains("cells_per_radius");
+            assert_eq!(is_plain, !advice.contains("cells_per_radius"), "{words}");
+        }
     }
 
     #[test]

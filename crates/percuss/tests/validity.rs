@@ -173,6 +173,12 @@ fn what_makes_a_projectile_rigid_is_said_where_nothing_else_can() {
     };
     let glass = remedy("material = 'glass', thickness = '10 mm'").unwrap();
     assert!(glass.contains("`strength.elastic = {}`"), "{glass}");
+    let why = reason(
+        &rigid,
+        &scenario("material = 'glass', thickness = '10 mm'", "'flat'", 100.0),
+    );
+    let words = "this one is deforming: the target never yields, the projectile does, at a flow stress of 400 MPa";
+    assert!(why.contains(words), "{why}");
     assert_eq!(
         remedy("material = '4340-johnson-cook', thickness = '10 mm'"),
         None

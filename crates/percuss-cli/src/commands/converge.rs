@@ -29,6 +29,7 @@ use crate::{
     run_folder::RunFolder,
     table::blocks,
     terminal::{bold, width, wrap},
+    whole_numbers::from_to,
     workers::{self, unless_stopped},
 };
 
@@ -70,7 +71,7 @@ pub struct Converge {
     model: String,
     /// Number of meshes; the work grows fourfold with each
     #[arg(long, value_name = "N", default_value_t = 4)]
-    #[arg(value_parser = clap::value_parser!(u32).range(3..=8))]
+    #[arg(value_parser = from_to::<u32>(3, 8, "a number of meshes"))]
     levels: u32,
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]
@@ -166,7 +167,7 @@ impl Converge {
         if let Some(folder) = &mut folder {
             folder.put("convergence.json", output::json(&study)?.as_bytes())?;
             let figures: Vec<_> = (0..study.quantities.len())
-                .filter_map(|i| convergence_figure(&scenario.name, &study, i))
+                .filter_map(|i| convergence_figure(scenario.heading(), &study, i))
                 .collect();
             folder.add_figures(&figures)?;
         }
@@ -224,10 +225,19 @@ fn table(study: &MeshStudy) -> String {
             number(index, 3),
         ]
     };
+    let heading = match study
+        .meshes
+        .iter()
+        .any(|mesh| mesh.cells_per_radius.is_some())
+    {
+        true => "cells per\nradius",
+        false => "elements",
+    };
     // Orders, extrapolated values and indices are below the meshes.
     let mut table = Table::of(&study.meshes)
-        .words("elements", |mesh| {
-            format!("{}–{}", mesh.projectile_elements, mesh.target_elements)
+        .words(heading, |mesh| match mesh.cells_per_radius {
+            Some(cells) => cells.to_string(),
+            None => format!("{}–{}", mesh.projectile_elements, mesh.target_elements),
         })
         .each(["order", "Richardson", "GCI [%]"], |rows, name| {
             rows.last(Some(name.to_owned()))
@@ -254,7 +264,7 @@ fn statuses(study: &MeshStudy) -> String {
         .iter()
         .map(|quantity| {
             let name = quantity.name.replace('_', " ");
-            let line = format!("{name}: {}", quantity.status.describe());
+            let line = format!("{name}: {}", study.describe(quantity));
             format!("{}\n", wrap(&line, width(), 2))
         })
         .collect()

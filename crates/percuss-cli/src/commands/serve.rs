@@ -13,7 +13,7 @@ use percuss::{
 };
 use percuss_serve::{Options, RequestLimits, ServeError, Server, StartCase};
 
-use crate::{failure::Failure, output};
+use crate::{failure::Failure, output, whole_numbers::from_to};
 
 /// Largest memory of a run of the page [bytes], unless the environment sets another one.
 const RUN_MEMORY: u64 = 1 << 30;
@@ -67,10 +67,10 @@ pub struct Serve {
     max_elements: usize,
     /// Time limit of a run or a study, in seconds
     #[arg(long, value_name = "S", default_value_t = RequestLimits::default().seconds)]
-    #[arg(value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    #[arg(value_parser = from_to::<u64>(1, 86_400, "a time limit"))]
     max_seconds: u64,
     /// Largest number of simultaneous runs and studies [default: one per core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "N", value_parser = from_to::<u16>(1, 1000, "a number of runs"))]
     max_runs: Option<u16>,
 }
 

@@ -20,7 +20,7 @@ fn says(message: impl Into<String>, help: impl Into<String>) -> Reworded {
 
 /// Rewords a message; `source` is the text that it is about.
 pub fn reword_toml_error(message: &str, source: &str) -> Reworded {
-    unknown(message)
+    unknown(message, source)
         .or_else(|| missing(message))
         .or_else(|| wrong_type(message, source))
         .or_else(|| syntax(message, source))
@@ -31,7 +31,20 @@ pub fn reword_toml_error(message: &str, source: &str) -> Reworded {
 }
 
 /// Help that depends on the key and on the names in its table as well as on the message.
-pub(super) fn help_for_key(key: &str, names: &[String], message: &str) -> Option<String> {
+pub(super) fn help_for_key(
+    key: &str,
+    names: &[String],
+    message: &str,
+    help: &str,
+) -> Option<String> {
+    if key == NOSE || key.starts_with("projectile.nose.") {
+        let near = help.split_once("? ").map_or("", |(near, _)| near);
+        let near = match near.starts_with("did you mean") {
+            true => format!("{near}? "),
+            false => String::new(),
+        };
+        return Some(format!("{near}{NOSES}"));
+    }
     if key.ends_with("_elements") && message.starts_with("invalid") {
         return Some(format!(
             "write a whole number from 1 to {MAX_ELEMENTS} without quotes"
@@ -46,13 +59,6 @@ pub(super) fn help_for_key(key: &str, names: &[String], message: &str) -> Option
     if !no_choice {
         return None;
     }
-    if key == "projectile.nose" {
-        return Some(
-            "shapes: nose = \"flat\", nose = \"hemisphere\", nose = { cone = { length_to_diameter = 1.0 } }, nose = { ogive \
-             = { crh = 3.0 } }"
-                .to_owned(),
-        );
-    }
     if key.ends_with(".strength") {
         return Some(
             "write strength.LAW = { PARAMETER = VALUE }; `percuss new NAME` writes a case that shows all laws".to_owned(),
@@ -61,6 +67,12 @@ pub(super) fn help_for_key(key: &str, names: &[String], message: &str) -> Option
     (message == "wanted string or table")
         .then(|| "`percuss new NAME` writes a case that shows what is allowed".to_owned())
 }
+
+/// Key of the shape of a nose.
+const NOSE: &str = "projectile.nose";
+/// How the shapes of a nose are written.
+const NOSES: &str = "write projectile.nose as \"flat\", \"hemisphere\", { cone = { length_to_diameter = 0.866 } } for a half angle of \
+                     30 deg, which is 1/(2 tan 30 deg), or { ogive = { crh = 3 } }";
 
 /// How a strength law is written, with the constants of the commonest one.
 const STRENGTH: &str = "name the law: strength.LAW = { PARAMETER = VALUE }. Johnson\u{2013}Cook with its A, B, n, C and m is \
@@ -102,7 +114,7 @@ fn help_for_strength(key: &str, names: &[String], message: &str) -> Option<Strin
 }
 
 /// Unknown keys and values.
-fn unknown(message: &str) -> Option<Reworded> {
+fn unknown(message: &str, source: &str) -> Option<Reworded> {
     if let Some(names) = message.strip_prefix("unexpected keys in table: ") {
         let (names, allowed) = names.split_once(", available keys: ")?;
         let name = names.split(", ").next()?;
@@ -114,7 +126,11 @@ fn unknown(message: &str) -> Option<Reworded> {
     }
     let what = match message {
         _ if message.starts_with("unknown field") => "key",
-        _ if message.starts_with("unknown variant") => "value",
+        // The name of a choice with parameters is a key of a table.
+        _ if message.starts_with("unknown variant") => match source.starts_with(['"', '\'']) {
+            true => "value",
+            false => "key",
+        },
         _ => return None,
     };
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
@@ -174,12 +190,41 @@ fn missing(message: &str) -> Option<Reworded> {
     })
 }
 
+/// Message and help for a table that lacks several keys.
+pub(super) fn several_missing(names: &[String]) -> (String, String) {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    let listed = match quoted.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => String::new(),
+    };
+    let examples: Vec<String> = names
+        .iter()
+        .filter_map(|name| EXAMPLES.iter().find(|(key, _)| key == name))
+        .map(|(name, value)| format!("{name} = {value}"))
+        .collect();
+    let examples = match examples.is_empty() {
+        true => String::new(),
+        false => format!(", for example {}", examples.join(", ")),
+    };
+    (
+        format!("the keys {listed} are missing"),
+        format!("add {listed}{examples}"),
+    )
+}
+
 /// A value of another type than the one that is due.
 fn wrong_type(message: &str, source: &str) -> Option<Reworded> {
     match message {
         "wanted string or table" => {
             return Some(says(
                 format!("a word or a table is due here, not {}", shorten(source)),
+                "",
+            ));
+        }
+        _ if message.starts_with("expected table, found ") => {
+            return Some(says(
+                format!("a table is due here, not {}", shorten(source)),
                 "",
             ));
         }

@@ -2,6 +2,7 @@
 
 mod error_messages;
 mod renamed;
+mod repair;
 mod text_file;
 mod texts;
 
@@ -16,7 +17,7 @@ pub use text_file::MAX_FILE_BYTES;
 pub use {error_messages::reword_toml_error, renamed::Renamed, text_file::read_text};
 
 use self::{
-    error_messages::{Reworded, help_for_key},
+    error_messages::{Reworded, help_for_key, several_missing},
     text_file::case_name,
 };
 use crate::{
@@ -26,6 +27,9 @@ use crate::{
 
 /// Tables of a case that are about materials.
 const OF_MATERIALS: [&str; 2] = ["materials", "material_files"];
+
+/// Reads a text as the type that is due, and gives what does not fit.
+type Reader<'a> = dyn Fn(&str) -> Option<toml::de::Error> + 'a;
 
 /// The text of a case, or of what goes with one, and where it comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -98,7 +102,8 @@ impl Document {
     /// # Errors
     /// [`Error::Input`] with the place of what does not fit.
     pub fn parse<T: serde::de::DeserializeOwned>(&self) -> Result<T, Error> {
-        let value = toml::from_str(&self.text).map_err(|error| self.parse_error(&error))?;
+        let again = |text: &str| toml::from_str::<T>(text).err();
+        let value = toml::from_str(&self.text).map_err(|error| self.parse_error(&error, &again))?;
         self.report(texts::diagnostics(&self.text))?;
         Ok(value)
     }
@@ -127,7 +132,7 @@ impl Document {
         }
     }
 
-    fn parse_error(&self, error: &toml::de::Error) -> InputError {
+    fn parse_error(&self, error: &toml::de::Error, again: &Reader<'_>) -> InputError {
         let mut span = error.span().unwrap_or(0..0);
         let source = self.text.get(span.clone()).unwrap_or_default();
         let Reworded {
@@ -135,6 +140,7 @@ impl Document {
             mut help,
             name,
         } = reword_toml_error(error.message(), source);
+        let is_missing = error.message().starts_with("missing field");
         let key = match DeTable::parse(&self.text) {
             Ok(root) => key_at(root.get_ref(), &span, name),
             Err(_) => {
@@ -147,7 +153,18 @@ impl Document {
                 self.written_key(span.start)
             }
         };
-        if let Some(more) = help_for_key(&key, &self.names_under(&key), error.message()) {
+        let names = self.names_under(&key);
+        if is_missing {
+            let missing = repair::missing_keys(&self.text, &key, again);
+            if missing.len() > 1 {
+                (message, help) = several_missing(&missing);
+            }
+        }
+        if let Some(unknown) = repair::unknown_choice(&self.text, &key, &names, again, error) {
+            message = unknown.message;
+            help = unknown.help;
+        }
+        if let Some(more) = help_for_key(&key, &names, error.message(), &help) {
             help = more;
         }
         if let Some(renamed) = Renamed::of(&key).filter(|_| message.starts_with("unknown key")) {

@@ -111,6 +111,7 @@ dimensions! {
         unit("km/s", 1e3, &["mm/us"]),
         unit("km/h", 1.0 / 3.6, &["kph"]),
         unit("ft/s", 0.3048, &["fps"]),
+        unit("mph", 0.44704, &["mi/h"]),
     ];
     /// A pressure, stress or modulus [Pa].
     Pressure, OfPressure, "stress", "a stress", "443 MPa", show ["GPa", "MPa", "kPa", "Pa"], [

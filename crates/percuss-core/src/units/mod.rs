@@ -148,6 +148,12 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// A quantity of one unit of every dimension, as a file would have it.
+pub(crate) fn one_of_each() -> impl Iterator<Item = String> {
+    let symbols = ALL_DIMENSIONS.iter().filter_map(|of| of.units.first());
+    symbols.map(|unit| format!("1 {}", unit.symbol))
+}
+
 /// Why a text is no quantity of the dimension that was due.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum QuantityError {

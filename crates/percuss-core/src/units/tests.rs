@@ -17,6 +17,7 @@ fn reads_the_units_of_the_field() {
     close(si::<dimension::OfLength>("4.8 mm"), 4.8e-3);
     close(si::<dimension::OfLength>(".5inch"), 0.0127);
     close(si::<dimension::OfVelocity>("1000 ft/s"), 304.8);
+    close(si::<dimension::OfVelocity>("1000 mph"), 447.04);
     close(si::<dimension::OfMass>("100 grain"), 6.479891e-3);
     close(si::<dimension::OfMass>("12.7 g"), 0.0127);
     close(si::<dimension::OfPressure>("443 MPa"), 443e6);

@@ -99,6 +99,12 @@ impl Template {
         &self.name
     }
 
+    /// Title of the case; empty where it has none.
+    pub fn title(&self) -> &str {
+        let title = self.table.get("title").and_then(Value::as_str);
+        title.unwrap_or_default().trim()
+    }
+
     /// The scenario with other values under some dotted keys.
     pub fn scenario(&self, changes: &[(&str, Value)]) -> Result<Scenario, Vec<Diagnostic>> {
         let table = self.changed(changes)?;

@@ -166,8 +166,17 @@ pub fn recognise(
         Some(_) => "",
     };
     let message = format!("the first line lacks {}", in_ticks(missing.iter().copied()));
+    let others = known.iter().filter(|column| {
+        missing.contains(&column.name) && !column.aliases.is_empty() && column.unit.is_none()
+    });
+    let others: String = others
+        .map(|column| {
+            let aliases = in_ticks(column.aliases.iter().copied());
+            format!("; `{}` can also be named {aliases}", column.name)
+        })
+        .collect();
     let help = format!(
-        "{hints}the first line names the columns; required are {}{separator}{remarks}",
+        "{hints}the first line names the columns; required are {}{others}{separator}{remarks}",
         in_ticks(required.iter().copied())
     );
     Err(table.error(0..0, "", message, help))
@@ -180,7 +189,7 @@ fn fit(name: &str, known: &[KnownColumn<'_>]) -> Option<(usize, Fit)> {
         for (i, column) in known.iter().enumerate() {
             let own = [column.name, column.quantity];
             let Some(unit) = column.unit else {
-                let words = plain_name(name);
+                let words = plain_name(without_choices(name));
                 let names = if by_alias { column.aliases } else { &own };
                 if !words.is_empty() && names.iter().any(|other| plain_name(other) == words) {
                     return Some((i, Fit::Column(None)));
@@ -219,6 +228,17 @@ fn fit(name: &str, known: &[KnownColumn<'_>]) -> Option<(usize, Fit)> {
         }
     }
     refused
+}
+
+/// A name without the words in brackets behind it that its values can be, as in `Perforation? (Y/N)`.
+fn without_choices(name: &str) -> &str {
+    let Some((words, rest)) = name.trim().split_once(['(', '[']) else {
+        return name;
+    };
+    match rest.strip_suffix([')', ']']) {
+        Some(choices) if choices.contains('/') && !is_unit(choices) => words,
+        _ => name,
+    }
 }
 
 fn two_columns(

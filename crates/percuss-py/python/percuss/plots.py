@@ -181,7 +181,8 @@ def _probability(method: str, standardised: float) -> float:
 def convergence(study: Convergence, quantity: str | None, ax: Axes | None) -> Axes:
     ax = new_axes(ax)
     chosen = next(q for q in study.quantities if quantity in (None, q.name))
-    elements = [mesh.projectile_elements + mesh.target_elements for mesh in study.meshes]
+    cells = ["cells_per_radius" in mesh for mesh in study.meshes]
+    elements = [mesh.cells_per_radius if all(cells) else mesh.projectile_elements + mesh.target_elements for mesh in study.meshes]
     name = chosen.name.replace("_", " ")
     ax.plot(elements, chosen.values, marker="o", label=name)
     if "richardson" in chosen.status:
@@ -189,7 +190,7 @@ def convergence(study: Convergence, quantity: str | None, ax: Axes | None) -> Ax
     ax.set_xscale("log")
     ax.set_xticks(elements, [str(count) for count in elements])
     ax.set_xticks([], minor=True)
-    ax.set(xlabel="Elements", ylabel=f"{_title(name)} ({chosen.unit})")
+    ax.set(xlabel="Cells per radius" if all(cells) else "Elements", ylabel=f"{_title(name)} ({chosen.unit})")
     ax.legend()
     return ax
 

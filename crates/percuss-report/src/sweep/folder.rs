@@ -259,11 +259,16 @@ pub fn status(path: &Path) -> Result<Status, ReportError> {
 
 /// The manifest of a folder that should have one.
 pub(super) fn manifest_of(path: &Path) -> Result<Manifest, ReportError> {
-    Manifest::read(path)?.ok_or_else(|| ReportError::Sweep {
+    let fails = |reason: &str| ReportError::Sweep {
         path: path.to_owned(),
-        reason: "this is no folder of a sweep: it has no manifest.json".to_owned(),
+        reason: reason.to_owned(),
         remedy: "give a folder that `percuss sweep` wrote".to_owned(),
-    })
+    };
+    if path.is_file() {
+        return Err(fails("this is a file, and a folder of a sweep is due here"));
+    }
+    let none = || fails("this is no folder of a sweep: it has no manifest.json");
+    Manifest::read(path)?.ok_or_else(none)
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -25,6 +25,9 @@ pub struct Manifest {
     pub title: String,
     /// Name of the case that is varied.
     pub case: String,
+    /// Title of the base case; empty where it has none.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub case_title: String,
     /// Name of the model.
     pub model: String,
     /// Design of experiments.
@@ -84,6 +87,7 @@ impl Manifest {
             percuss_version: env!("CARGO_PKG_VERSION").to_owned(),
             title: sweep.title.clone(),
             case: sweep.case().to_owned(),
+            case_title: sweep.case_title().to_owned(),
             model: sweep.model.name().to_owned(),
             design: sweep.design().name().to_owned(),
             seed: sweep.seed,
@@ -157,7 +161,9 @@ impl Manifest {
         };
         let (ours, theirs) = (fields(self), fields(other));
         // A case without a name of its own has that of its folder, which may move; `case_hash` tells cases apart.
-        let told_apart = ours.iter().filter(|(name, _)| *name != "case");
+        let told_apart = ours
+            .iter()
+            .filter(|(name, _)| !["case", "case_title"].contains(&name.as_str()));
         told_apart.into_iter().find_map(|(name, value)| {
             let other = theirs.get(name)?;
             let words = match name.as_str() {

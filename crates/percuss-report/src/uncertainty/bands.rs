@@ -9,7 +9,7 @@ use percuss::{
 use super::stem;
 use crate::{
     Axis, LineChart, Mark, Series, Style,
-    caption::caption,
+    caption::{below_heading, caption},
     names::{capitalized, with_unit},
     palette,
 };
@@ -122,13 +122,13 @@ pub(super) fn perforation(scenario: &Scenario, found: &Uncertainty) -> Option<Li
     let band = decided.iter().map(|(_, p)| (100.0 * p.low, 100.0 * p.high));
     let mut chart = LineChart::new(
         "perforation",
-        format!("Probability of perforation: {}", found.case),
+        format!("Probability of perforation: {}", scenario.heading()),
         Axis::new("Impact velocity (m/s)"),
         Axis::new("Probability of perforation (%)").range(-4.0, 104.0),
     )
-    .caption(format!(
-        "{}; band: 95 % interval due to the finite number of runs",
-        caption(scenario, None)
+    .caption(below_heading(
+        scenario,
+        "band: 95 % interval due to the finite number of runs",
     ))
     .series(Series::new(format!("model {}", found.model), curve).band(band));
     let tests = scenario

@@ -8,7 +8,7 @@ use percuss::{
 
 use super::stem;
 use crate::{
-    Axis, Bar, BarRows, Histogram, LineChart, Mark, Series, Style, caption::caption, names,
+    Axis, Bar, BarRows, Histogram, LineChart, Mark, Series, Style, caption::below_heading, names,
     names::with_unit as label_with_unit, palette,
 };
 
@@ -17,8 +17,8 @@ fn axis(quantity: &QuantityResult) -> Axis {
     Axis::new(label_with_unit(what.label, what.unit.symbol))
 }
 
-fn title(start: &str, quantity: &QuantityResult, found: &Uncertainty) -> String {
-    format!("{start} {}: {}", quantity.what().label, found.case)
+fn title(start: &str, quantity: &QuantityResult, scenario: &Scenario) -> String {
+    format!("{start} {}: {}", quantity.what().label, scenario.heading())
 }
 
 fn with_unit(value: f64, unit: &str) -> String {
@@ -42,19 +42,21 @@ pub(super) fn histogram(
             value,
         )
     };
-    let title = title("Distribution of the", quantity, found);
+    let title = title("Distribution of the", quantity, scenario);
     let mut chart = Histogram::new(
         format!("histogram-{}", stem(quantity.quantity)),
         title,
         axis(quantity),
         values,
     )
-    .caption(format!(
-        "{}; {} runs, model {}, standard deviation {}",
-        caption(scenario, None),
-        statistics.runs,
-        found.model,
-        with_unit(statistics.standard_deviation, what.unit.symbol)
+    .caption(below_heading(
+        scenario,
+        &format!(
+            "{} runs, model {}, standard deviation {}",
+            statistics.runs,
+            found.model,
+            with_unit(statistics.standard_deviation, what.unit.symbol)
+        ),
     ))
     .mark(named("5th percentile", statistics.percentile(5.0).value))
     .mark(named("mean", statistics.mean))
@@ -78,13 +80,13 @@ pub(super) fn tornado(
     let name = format!("tornado-{}", stem(quantity.quantity));
     let mut chart = BarRows::new(
         name,
-        title("Tornado chart of the", quantity, found),
+        title("Tornado chart of the", quantity, scenario),
         axis(quantity),
         1,
     )
-    .caption(format!(
-        "{}; one parameter at a time, all others at their medians",
-        caption(scenario, None)
+    .caption(below_heading(
+        scenario,
+        "one parameter at a time, all others at their medians",
     ))
     .color("at 5th percentile", low_color)
     .color("at 95th percentile", high_color)
@@ -117,24 +119,24 @@ pub(super) fn tornado(
 }
 
 /// Sobol' indices with their intervals.
-pub(super) fn indices(
-    scenario: &Scenario,
-    found: &Uncertainty,
-    quantity: &QuantityResult,
-) -> Option<BarRows> {
+pub(super) fn indices(scenario: &Scenario, quantity: &QuantityResult) -> Option<BarRows> {
     let indices = quantity.indices.as_ref()?;
     let [first_color, total_color] = [palette::SERIES[2], palette::SERIES[4]];
     let name = format!("indices-{}", stem(quantity.quantity));
     let x = Axis::new("Fraction of variance");
-    let mut chart = BarRows::new(name, title("Sobol' indices of the", quantity, found), x, 2)
-        .caption(format!(
-            "{}; {} sample rows, 95 % intervals",
-            caption(scenario, None),
-            indices.rows
-        ))
-        .color("first-order index", first_color)
-        .color("total-effect index", total_color)
-        .mark(Mark::vertical("", 0.0));
+    let mut chart = BarRows::new(
+        name,
+        title("Sobol' indices of the", quantity, scenario),
+        x,
+        2,
+    )
+    .caption(below_heading(
+        scenario,
+        &format!("{} sample rows, 95 % intervals", indices.rows),
+    ))
+    .color("first-order index", first_color)
+    .color("total-effect index", total_color)
+    .mark(Mark::vertical("", 0.0));
     let mut sorted: Vec<_> = indices.parameters.iter().collect();
     sorted.sort_by(|a, b| b.total.value.total_cmp(&a.total.value));
     for index in sorted {
@@ -170,7 +172,9 @@ pub(super) fn axisymmetric(scenario: &Scenario, found: &Uncertainty) -> Option<L
         format!("axisymmetric-{}", stem(spread.quantity)),
         format!(
             "Axisymmetric {} against {}: {}",
-            what.label, found.model, found.case
+            what.label,
+            found.model,
+            scenario.heading()
         ),
         Axis::new(label_with_unit(
             &format!("{} by {}", what.label, found.model),
@@ -178,13 +182,15 @@ pub(super) fn axisymmetric(scenario: &Scenario, found: &Uncertainty) -> Option<L
         )),
         Axis::new(label_with_unit(&format!("{} by axi", what.label), unit)),
     )
-    .caption(format!(
-        "{}; mean {} ± {}, standard deviation {} ± {}",
-        caption(scenario, None),
-        significant(spread.mean, 4),
-        error(spread.standard_error),
-        significant(spread.standard_deviation, 3),
-        error(spread.standard_deviation_error),
+    .caption(below_heading(
+        scenario,
+        &format!(
+            "mean {} ± {}, standard deviation {} ± {}",
+            significant(spread.mean, 4),
+            error(spread.standard_error),
+            significant(spread.standard_deviation, 3),
+            error(spread.standard_deviation_error)
+        ),
     ))
     .series(
         Series::new(

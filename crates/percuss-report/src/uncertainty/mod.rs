@@ -23,7 +23,7 @@ pub fn uncertainty_charts(scenario: &Scenario, found: &Uncertainty) -> Vec<Chart
     for quantity in &found.quantities {
         charts.push(figures::histogram(scenario, found, quantity).into());
         charts.push(figures::tornado(scenario, found, quantity).into());
-        charts.extend(figures::indices(scenario, found, quantity).map(Chart::from));
+        charts.extend(figures::indices(scenario, quantity).map(Chart::from));
         charts.extend(bands::bands(scenario, found, quantity).map(Chart::from));
     }
     charts.extend(figures::axisymmetric(scenario, found).map(Chart::from));

@@ -38,12 +38,12 @@ pub(super) fn converged(job: &Job<'_>) -> Result<Study, Problem> {
     let (study, _) = converge::study(model, &scenario, LEVELS, &mut control)
         .map_err(|error| job.stop.problem(error))?;
     let charts: Vec<Chart> = (0..study.quantities.len())
-        .filter_map(|i| convergence_chart(&scenario.name, &study, i))
+        .filter_map(|i| convergence_chart(scenario.heading(), &study, i))
         .collect();
     let words: Vec<String> = study
         .quantities
         .iter()
-        .map(|quantity| quantity.status.describe())
+        .map(|quantity| study.describe(quantity))
         .collect();
     let files = [("convergence.json".to_owned(), pretty(&study))];
     let record = json!({ "study": study, "words": words });

@@ -31,7 +31,7 @@ pub(super) fn check(
             return Err(unknown(
                 "projectile_material",
                 name,
-                "a file of materials can add your own",
+                "`--materials FILE.toml` adds your own",
             ));
         }
     }
@@ -45,7 +45,7 @@ pub(super) fn check(
         return Err(unknown(
             "target_material",
             material,
-            "or give its properties, target_density_kg_m3 and so on",
+            "`--materials FILE.toml` adds your own; or give its properties, target_density_kg_m3 and so on",
         ));
     }
     for record in &test.projectile_materials {

@@ -177,6 +177,7 @@ pub(super) fn entry(
     let limit = limit_of(samples);
     let fit = fit_lambert_jonas(&curve);
     said.extend(warnings::curve_starts_elsewhere(limit, fit));
+    said.extend(warnings::curve_gains_velocity(fit));
     ModelLimit {
         scheme,
         reason: None,

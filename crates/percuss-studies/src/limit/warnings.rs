@@ -54,6 +54,21 @@ pub(super) fn curve_starts_elsewhere(
     })
 }
 
+/// Part of 1 by which `a` of a fitted curve may exceed 1, for rounding.
+const ROUNDING: f64 = 1e-3;
+
+/// Says that a fitted curve leaves faster than it arrives.
+pub(super) fn curve_gains_velocity(fit: Option<LambertJonasFit>) -> Option<String> {
+    let a = fit?.a;
+    (a > 1.0 + ROUNDING).then(|| {
+        format!(
+            "the curve through the residual velocities has a = {}: above 1 the fit is not physical, a fast projectile would leave faster than it \
+             arrived; do not use it beyond the computed velocities",
+            significant(a, 4)
+        )
+    })
+}
+
 /// Says that faster runs are stopped, or that slower ones perforate.
 pub(super) fn not_monotone(samples: &[Sample<LimitRun>], above: usize) -> Option<String> {
     let (low, high) = samples.split_at(above);
@@ -101,4 +116,30 @@ pub(super) fn velocities_without_answer(samples: &[Sample<LimitRun>]) -> Option<
         ),
     };
     decided.then(|| format!("{range} the model gives no answer: {reason}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_above_the_impact_velocity_is_not_physical() {
+        let of = |a: f64| {
+            curve_gains_velocity(Some(LambertJonasFit {
+                a,
+                p: 2.0,
+                ballistic_limit_m_s: 200.0,
+                rms_m_s: 1.0,
+            }))
+        };
+        assert_eq!(
+            (of(0.9), of(1.0005), curve_gains_velocity(None)),
+            (None, None, None)
+        );
+        let words = of(1.234_56).unwrap();
+        assert!(
+            words.contains("a = 1.235: above 1 the fit is not physical"),
+            "{words}"
+        );
+    }
 }

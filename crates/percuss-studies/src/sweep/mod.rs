@@ -103,6 +103,11 @@ impl Sweep {
         self.template.name()
     }
 
+    /// Title of the case that is varied; empty where it has none.
+    pub fn case_title(&self) -> &str {
+        self.template.title()
+    }
+
     /// How its runs are chosen.
     pub fn design(&self) -> Design {
         self.points.design

@@ -32,6 +32,9 @@ const RESULTS: [(&str, bool); 14] = [
     ("0", false),
 ];
 
+/// The same in a column that has both.
+const LETTERS: [(&str, bool); 2] = [("c", true), ("p", false)];
+
 /// Columns of a file: the impact velocity, also by another name and in another unit, whether the target was perforated, and a note that nothing
 /// reads.
 pub const COLUMNS: [&str; 3] = [VELOCITY, PERFORATED, "note"];
@@ -66,12 +69,20 @@ fn file(name: &str, text: &str) -> Result<TestFile<Test>, Error> {
     let recognised = recognise(&table, &known, &[VELOCITY, PERFORATED])?;
     table.adopt(&recognised, &known);
     let mut tests = Vec::new();
+    // Alone, P can be a perforation; beside C it is a partial penetration.
+    let has_complete = records.iter().any(|record| {
+        let row = CsvRow {
+            table: &table,
+            record: record.clone(),
+        };
+        plain_name(row.text(PERFORATED)) == "c"
+    });
     for record in records {
         let row = CsvRow {
             table: &table,
             record,
         };
-        tests.push(test(&row)?);
+        tests.push(test(&row, has_complete)?);
     }
     if tests.is_empty() {
         let help = "write one row per test below the header, such as 184.3,yes";
@@ -85,7 +96,7 @@ fn file(name: &str, text: &str) -> Result<TestFile<Test>, Error> {
     })
 }
 
-fn test(row: &CsvRow<'_>) -> Result<Test, Box<InputError>> {
+fn test(row: &CsvRow<'_>, has_complete: bool) -> Result<Test, Box<InputError>> {
     if row.record.len() != row.table.header.len() {
         return Err(row.error(
             VELOCITY,
@@ -109,10 +120,12 @@ fn test(row: &CsvRow<'_>) -> Result<Test, Box<InputError>> {
         ));
     }
     let result = plain_name(&row.required(PERFORATED)?);
-    let known = RESULTS.iter().find(|(word, _)| *word == result);
+    let letters: &[(&str, bool)] = if has_complete { &LETTERS } else { &[] };
+    let mut all = RESULTS.iter().chain(letters);
+    let known = all.find(|(word, _)| *word == result);
     let Some((_, perforated)) = known else {
         let message = format!("unknown value `{}`", shorten(row.text(PERFORATED)));
-        let help = "allowed: yes or no, complete or partial, CP or PP, true or false, 1 or 0";
+        let help = "allowed: yes or no, complete or partial, CP or PP, true or false, 1 or 0; C or P where both are in the column";
         return Err(row.error(PERFORATED, message, help));
     };
     Ok(Test {

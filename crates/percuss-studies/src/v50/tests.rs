@@ -306,6 +306,18 @@ fn a_file_is_read_and_what_is_wrong_in_it_has_its_place() {
         ),
         ("impact_velocity_m_s\n184\n", 1, "", "lacks `perforated`"),
         (
+            "impact_velocity_m_s,holed\n184,yes\n",
+            1,
+            "",
+            "`perforated` can also be named `result`, `outcome`",
+        ),
+        (
+            "impact_velocity_m_s,perforated\n184,P\n",
+            2,
+            "perforated",
+            "unknown value `P`",
+        ),
+        (
             "impact_velocity_m_s,impact_velocity_m_s\n1,2\n",
             1,
             "impact_velocity_m_s",
@@ -345,6 +357,8 @@ fn tables_of_spreadsheets_are_read() {
         "V-impact km/s,Penetration\n.1843,Partial penetration\n.1885,COMPLETE\n",
         "# Range 2\n#\nV0 (m/s);Outcome\n184,3;partial\n188,5;complete penetration\n",
         "# V0_m_s,Outcome\n184.3,PP\n188.5,CP\n",
+        "V0 (m/s),Perforation? (Y/N)\n184.3,N\n188.5,Y\n",
+        "V0 (m/s),Result [C/P]\n184.3,P\n188.5,C\n",
     ] {
         let read = read_str("tests.csv", text).unwrap_or_else(|error| panic!("{error}"));
         for (read, expected) in read.iter().zip(&expected) {

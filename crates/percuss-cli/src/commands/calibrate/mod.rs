@@ -34,6 +34,7 @@ use crate::{
     response::{ProgressCallback, Response, ResponseData, VirtualFiles},
     run_folder::RunFolder,
     terminal, test_data,
+    whole_numbers::from_to,
     workers::{self, unless_stopped},
 };
 
@@ -126,14 +127,14 @@ pub struct Calibrate {
     least_squares: bool,
     /// Number of independent ensembles
     #[arg(long, value_name = "N", default_value = "4")]
-    #[arg(value_parser = clap::value_parser!(u16).range(1..=64))]
+    #[arg(value_parser = from_to::<u16>(1, 64, "a number of ensembles"))]
     ensembles: u16,
     /// Walkers per ensemble, an even number [default: four per parameter, at least 12]
     #[arg(long, value_name = "N", value_parser = values::walkers)]
     walkers: Option<usize>,
     /// Kept steps per walker; the burn-in has a third as many
     #[arg(long, value_name = "N", default_value = "600")]
-    #[arg(value_parser = clap::value_parser!(u32).range(4..=10_000_000))]
+    #[arg(value_parser = from_to::<u32>(4, 10_000_000, "a number of steps per walker"))]
     steps: u32,
     /// Seed of the random numbers
     #[arg(long, value_name = "N", default_value = "0")]
@@ -159,7 +160,12 @@ impl Calibrate {
         let problem = self.problem(&VirtualFiles::default())?;
         let settings = self.settings(&problem)?;
         let folder = RunFolder::wanted(self.out.as_deref(), None, self.figures.formats())?;
-        cost::tell(problem.estimate(&settings, self.request()), self.quiet);
+        let cheaper = match settings.sampling {
+            Some(_) => "`--least-squares` gives a first answer with a small part of these runs",
+            None => "",
+        };
+        let estimate = problem.estimate(&settings, self.request());
+        cost::tell_with(estimate, cheaper, self.quiet);
         let found = self.watched(problem, &settings)?;
         let files = written(folder, &found)?;
         self.print(&found, &files)

@@ -143,7 +143,7 @@ mod tests {
             ("400", "is not a range"),
             ("400..100", "not above"),
             ("a..100", "not a number"),
-            ("0..100 mph", "mph"),
+            ("0..100 knots", "knots"),
             ("0..20 km/s", "out of range"),
             ("-5..20", "out of range"),
             ("100 kg..300 m/s", "`kg` is a unit of mass"),

@@ -218,6 +218,9 @@ fn hardness(text: &str) -> Result<[f64; 2], String> {
     let ends = text.split_once("..");
     match ends.and_then(|(from, to)| Some([number(from)?, number(to)?])) {
         Some([least, most]) if least <= most => Ok([least, most]),
+        Some([most, least]) => Err(format!(
+            "the range is reversed: write {least}..{most}, the smaller number first"
+        )),
         _ => Err("write it as FROM..TO in kgf/mm2, such as 350..500".to_owned()),
     }
 }

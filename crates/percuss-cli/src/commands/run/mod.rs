@@ -15,7 +15,7 @@ use std::{
     time::Duration,
 };
 
-use clap::{Args, builder::PossibleValuesParser, value_parser};
+use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Error,
     axisymmetric::{AxisymmetricAnswer, ReferenceMeshes},
@@ -38,6 +38,7 @@ use crate::{
     result_table, run_folder,
     run_output::RunOutput,
     unit_system::unit_system,
+    whole_numbers::from_to,
     workers,
 };
 
@@ -133,7 +134,7 @@ pub struct Run {
     #[arg(long)]
     json: bool,
     /// Also run the next packings of particles, N in all, and give means and spread over them
-    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(2..=1000))]
+    #[arg(long, value_name = "N", value_parser = from_to::<u16>(2, 1000, "a number of packings"))]
     seeds: Option<u16>,
     /// Write result, histories and figures to a folder
     #[arg(long, value_name = "DIR")]
@@ -157,7 +158,7 @@ pub struct Run {
     #[arg(long, requires = "out")]
     animation: bool,
     /// Most frames of --fields and --animation, 2 to 1000; a run has between half as many and all of them, unless it is too short [default: 64]
-    #[arg(long, value_name = "N", requires = "out", value_parser = value_parser!(u16).range(2..=1000))]
+    #[arg(long, value_name = "N", requires = "out", value_parser = from_to::<u16>(2, 1000, "a number of frames"))]
     frames: Option<u16>,
     /// How often a numerical model leaves a checkpoint in DIR [default: 60s]
     #[arg(long, value_name = "TIME", requires = "out", value_parser = checkpoints::interval)]
@@ -303,7 +304,10 @@ impl Run {
             return files.print_json(&run_output.results(), self.quiet);
         }
         if self.quiet {
-            return output::print(&one_line(&run_output.results()));
+            let seeds = run_output.seeds.as_ref();
+            let of_seeds = seeds.map_or_else(String::new, seeds::pairs);
+            let line = one_line(&run_output.results());
+            return output::print(&format!("{}{of_seeds}\n", line.trim_end()));
         }
         let first = match first_is_printed {
             true => String::new(),

@@ -7,7 +7,7 @@ use percuss::{
     model::{self, Control, Model},
     outcome::RunResult,
     particles::with_seed,
-    summary::SeedStudy,
+    summary::{SeedNumber, SeedStudy, result_number},
     units::significant,
 };
 use percuss_report::table::Table;
@@ -55,6 +55,20 @@ pub(super) fn study(
     }
     let results: Vec<&RunResult> = std::iter::once(first).chain(&others).collect();
     Ok((SeedStudy::new(scenario, start, &results), is_stopped))
+}
+
+/// Means and standard deviations as NAME=VALUE pairs, each with a space before it.
+pub(super) fn pairs(study: &SeedStudy) -> String {
+    let is_result = |of: &&SeedNumber| result_number(of.name).is_some_and(|it| it.role.is_result());
+    let numbers = study.numbers.iter().filter(is_result).map(|of| {
+        let (name, mean, deviation) = (of.name, of.mean, of.standard_deviation);
+        format!(" {name}_mean={mean} {name}_standard_deviation={deviation}")
+    });
+    format!(
+        " packings={}{}",
+        study.seeds.len(),
+        numbers.collect::<String>()
+    )
 }
 
 /// Table of a study.

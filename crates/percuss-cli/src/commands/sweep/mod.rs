@@ -27,6 +27,7 @@ use crate::{
     response::Response,
     terminal::{self, bold},
     unit_system::unit_system,
+    whole_numbers::from_to,
     workers::{self, MOST_THREADS},
 };
 
@@ -82,10 +83,10 @@ pub struct Sweep {
     #[arg(long, value_name = "I/N", value_parser = shard, default_value = "1/1")]
     shard: (u64, u64),
     /// Add axisymmetric answers of this number of runs, spread over all
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    #[arg(long, value_name = "N", value_parser = from_to::<u64>(1, 100_000, "a number of axisymmetric runs"))]
     axisymmetric: Option<u64>,
     /// Number of threads [default: number of cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(MOST_THREADS)))]
+    #[arg(long, value_name = "N", value_parser = from_to::<u16>(1, MOST_THREADS, "a number of threads"))]
     threads: Option<u16>,
     /// No summary and no progress
     #[arg(long, short)]

@@ -33,6 +33,7 @@ use crate::{
     response::{ProgressCallback, Response, ResponseData, VirtualFiles},
     run_folder::RunFolder,
     speeds::{Speeds, SpeedsError},
+    whole_numbers::from_to,
     workers::{self, MOST_THREADS, unless_stopped},
 };
 
@@ -93,7 +94,7 @@ pub struct Uncertainty {
     model: String,
     /// Number of samples; a power of two is best
     #[arg(long, value_name = "N", default_value = "1024")]
-    #[arg(value_parser = clap::value_parser!(u64).range(MIN_SAMPLES..=MAX_SAMPLES))]
+    #[arg(value_parser = from_to::<u64>(MIN_SAMPLES, MAX_SAMPLES, "a number of samples"))]
     samples: u64,
     /// Seed of the random numbers
     #[arg(long, value_name = "S", default_value = "0")]
@@ -112,10 +113,10 @@ pub struct Uncertainty {
     no_indices: bool,
     /// Correct mean and spread by the axisymmetric model on this number of the samples, 4 to 256
     #[arg(long, value_name = "N")]
-    #[arg(value_parser = clap::value_parser!(u64).range(FEWEST_POINTS as u64..=MOST_POINTS as u64))]
+    #[arg(value_parser = from_to::<u64>(FEWEST_POINTS as u64, MOST_POINTS as u64, "a number of axisymmetric runs"))]
     axisymmetric: Option<u64>,
     /// Number of threads [default: number of cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(MOST_THREADS)))]
+    #[arg(long, value_name = "N", value_parser = from_to::<u16>(1, MOST_THREADS, "a number of threads"))]
     threads: Option<u16>,
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]

@@ -214,9 +214,10 @@ impl<'a> Data<'a> {
     }
 
     pub(super) fn title(&self) -> String {
-        match self.manifest.title.as_str() {
-            "" => quantity::title(self.quantity),
-            title => title.to_owned(),
+        let titles = [&self.manifest.title, &self.manifest.case_title];
+        match titles.into_iter().find(|title| !title.is_empty()) {
+            None => quantity::title(self.quantity),
+            Some(title) => title.clone(),
         }
     }
 

@@ -73,7 +73,8 @@ pub fn plot(folders: &[PathBuf], request: &PlotRequest) -> Result<Figure, Report
             let place = all.position(|varied| varied.key == *key || varied.column == *key);
             place.map(Some).ok_or_else(|| {
                 let keys: Vec<&str> = manifest.parameters.iter().map(|p| &*p.key).collect();
-                let remedy = format!("{option} takes one of {}", keys.join(", "));
+                let near = quantity::meant(key, &keys);
+                let remedy = format!("{near}{option} takes one of {}", keys.join(", "));
                 fail(format!("the sweep does not vary `{key}`"), remedy)
             })
         }

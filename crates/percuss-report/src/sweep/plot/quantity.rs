@@ -23,8 +23,7 @@ pub(super) fn choose(parts: &Parts<'_>, wanted: Option<&str>) -> Result<String, 
     };
     let fail = |reason: String| {
         let names: Vec<&str> = all().map(|(_, column)| column.name.as_str()).collect();
-        let near = wanted.and_then(|wanted| nearest(wanted, names.iter().copied()));
-        let near = near.map_or_else(String::new, |name| format!("did you mean `{name}`? "));
+        let near = wanted.map_or_else(String::new, |wanted| meant(wanted, &names));
         ReportError::Sweep {
             path: parts.first().to_owned(),
             reason,
@@ -48,6 +47,20 @@ pub(super) fn choose(parts: &Parts<'_>, wanted: Option<&str>) -> Result<String, 
     first.ok_or_else(|| {
         fail("no computed run has a result; the column `error` has the reasons".to_owned())
     })
+}
+
+/// What a user may have meant by a name that is none of these, as a sentence that ends with a space: the first one that starts or ends
+/// with it, or the nearest.
+pub(super) fn meant(wanted: &str, names: &[&str]) -> String {
+    let starts_or_ends = |name: &&&str| {
+        let rest = name.strip_prefix(wanted);
+        let rest = rest.or_else(|| name.strip_suffix(wanted));
+        !wanted.is_empty() && rest.is_some_and(|rest| rest.starts_with('_') || rest.ends_with('.'))
+    };
+    let near = names.iter().find(starts_or_ends);
+    let near = near.map(|name| (*name).to_owned());
+    near.or_else(|| nearest(wanted, names.iter().copied()))
+        .map_or_else(String::new, |name| format!("did you mean `{name}`? "))
 }
 
 fn is_input(manifest: &Manifest, column: &str) -> bool {

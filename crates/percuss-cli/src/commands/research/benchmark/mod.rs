@@ -30,6 +30,7 @@ use crate::{
     progress::Progress,
     response::{ProgressCallback, Response},
     run_folder::make_folder,
+    whole_numbers::from_to,
 };
 
 /// Fraction of the work that is the computation of the reference, where it is computed.
@@ -88,7 +89,7 @@ pub struct Benchmark {
     compute: bool,
     /// Cells along the projectile's radius, for --compute with --reference
     #[arg(long, value_name = "N", default_value_t = 8, requires = "compute")]
-    #[arg(value_parser = clap::value_parser!(u32).range(2..=64))]
+    #[arg(value_parser = from_to::<u32>(2, 64, "a number of cells"))]
     cells: u32,
     /// Leave out cases that take longer than this on one core [s], for --compute with --reference
     #[arg(
