@@ -11,12 +11,14 @@ use crate::units::one_of_each;
 
 /// Largest number of missing keys that a message names.
 const MOST: usize = 12;
+/// Longest text that is read again and again [bytes].
+const LONGEST: usize = 1 << 16;
 
 /// All required keys that a table lacks, the first under this dotted key.
 pub(super) fn missing_keys(text: &str, key: &str, again: &Reader<'_>) -> Vec<String> {
     let (path, first) = key.rsplit_once('.').unwrap_or(("", key));
     let mut names = vec![first.to_owned()];
-    let Ok(root) = text.parse::<Table>() else {
+    let Some(root) = short(text) else {
         return names;
     };
     // A key that is not there any more once it has a value shows the next one.
@@ -67,7 +69,7 @@ pub(super) fn unknown_choice(
     {
         return None;
     }
-    let root: Table = text.parse().ok()?;
+    let root = short(text)?;
     names.iter().find_map(|name| {
         let mut alone = root.clone();
         table_at(&mut alone, key)?.retain(|other, _| other == name);
@@ -77,6 +79,11 @@ pub(super) fn unknown_choice(
             .starts_with(&format!("unknown variant `{name}`"));
         is_unknown.then(|| reword_toml_error(error.message(), name))
     })
+}
+
+/// The tables of a text, unless it is long.
+fn short(text: &str) -> Option<Table> {
+    (text.len() <= LONGEST).then(|| text.parse().ok())?
 }
 
 fn table_at<'a>(root: &'a mut Table, path: &str) -> Option<&'a mut Table> {
