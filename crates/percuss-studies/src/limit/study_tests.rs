@@ -205,12 +205,21 @@ fn disc(budget: Option<f64>) -> (Scenario, Search) {
 #[test]
 fn the_axisymmetric_limit_is_recommended_where_no_other_one_is_judged() {
     let (steel, search) = disc(None);
-    let of = |case: &Scenario| {
-        limits(&[&PowerBalance], case, &search, &mut Observer::default()).unwrap()
+    let by = |model: &dyn Model, case: &Scenario| {
+        limits(&[model], case, &search, &mut Observer::default()).unwrap()
     };
+    let of = |case: &Scenario| by(&PowerBalance, case);
     let chosen = |found: &Limits| Vec::from_iter(found.recommended.iter().map(|c| c.model));
-    let found = of(&steel);
+    let found = by(&AwerbuchBodner, &steel);
     assert_eq!((chosen(&found), found.note), (vec!["axi"], None));
+    // A first choice that contradicts it stands before it, with the range.
+    let found = of(&steel);
+    assert_eq!(chosen(&found), ["power_balance"]);
+    let note = found.note.unwrap();
+    assert!(
+        note.starts_with("the axisymmetric limit is 1.5 times"),
+        "{note}"
+    );
     let light = |failure_strain: Option<f64>| {
         let mut light = scenario(
             r#"
