@@ -51,7 +51,7 @@ const LAYERS: &str = r#"
     { material = "brittle", thickness = "3 mm", interface = "bonded" },
     { material = "copper", thickness = "6 mm", gap = "0.1 mm" }"#;
 
-/// A plug that flies through a gap is held by nothing: how wide the gap is makes no difference to what strikes the plate behind it.
+/// A plug that flies through a gap is held by nothing. Across a wide one it goes further ahead of the rod, which is all that the width changes.
 #[test]
 fn border_shear_does_not_act_in_a_gap() {
     let residual = |gap: f64| {
@@ -73,7 +73,7 @@ fn border_shear_does_not_act_in_a_gap() {
     };
     let [near, far] = [20.0, 100.0].map(residual);
     assert!(
-        near > 200.0 && (far / near - 1.0).abs() < 0.05,
+        near > 200.0 && (far / near - 1.0).abs() < 0.1,
         "{near} {far}"
     );
 }
