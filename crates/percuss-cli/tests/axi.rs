@@ -94,6 +94,14 @@ fn an_animation_is_written_on_request_with_a_number_of_frames() {
 }
 
 #[test]
+fn dumps_are_written_on_request() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = written(folder.path(), &["--dump", "--frames", "8"]);
+    assert!((4..=8).contains(&files_in(&out.join("dump"))));
+    assert!(!out.join("fields").exists() && !out.join("fields.pvd").exists());
+}
+
+#[test]
 fn a_checkpoint_of_something_else_is_refused_in_words() {
     let folder = tempfile::tempdir().unwrap();
     let case = case(folder.path(), CASE);
@@ -124,6 +132,7 @@ fn options_of_fields_are_refused_where_there_are_none() {
     let formula = "which does not step through time";
     for (model, option, why) in [
         ("chain", "--animation", chain),
+        ("chain", "--dump", chain),
         ("chain", "--field=speed", chain),
         ("tate", "--animation", formula),
         ("tate", "--resume", formula),
@@ -151,7 +160,7 @@ fn options_of_fields_are_refused_where_there_are_none() {
     let said = run.stderr;
     assert_eq!(run.code, 2, "{said}");
     assert!(
-        said.contains("`--frames` has no effect without `--fields` or `--animation`"),
+        said.contains("`--frames` has no effect without `--fields`, `--animation` or `--dump`"),
         "{said}"
     );
     for given in [

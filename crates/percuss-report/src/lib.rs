@@ -99,7 +99,7 @@ pub use convergence_figure::{convergence_chart, convergence_figure};
 pub use error::ReportError;
 #[cfg(feature = "png")]
 pub use field::{FieldColors, FieldSpan, FieldView, animate, usual_range};
-pub use field::{FieldQuantity, FieldSeries, FinalField, FrameSelection};
+pub use field::{FieldQuantity, FieldSeries, FinalField, FrameSelection, write_dumps};
 pub use figure::{Figure, FigureFormat, write_figures};
 pub use figure_width::{FIGURE_WIDTHS, with_figure_width};
 pub use flow_figure::{FlowCurve, flow_figure};

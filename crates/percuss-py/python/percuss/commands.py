@@ -29,6 +29,7 @@ def run(
     field: str | None = None,
     fields: bool = False,
     animation: bool = False,
+    dump: bool = False,
     frames: int | None = None,
     checkpoint: float | str | None = None,
     resume: bool = False,
@@ -70,8 +71,10 @@ def run(
         Whether to write the fields of a model of two dimensions over time, as a series for ParaView (``fields.pvd``).
     animation : bool
         Whether to write an animation of one field (``animation.gif``) and its pictures (``frames/``).
+    dump : bool
+        Whether to write the fields over time in LAMMPS' format of dumps, for OVITO (``dump/``).
     frames : int, optional
-        Most frames of ``fields`` and ``animation``, 2 to 1000; 64 when not given.
+        Most frames of ``fields``, ``animation`` and ``dump``, 2 to 1000; 64 when not given.
     checkpoint : float or str, optional
         How often a numerical model leaves a checkpoint in ``out`` [s], or a text such as ``"5 min"``; 60 s when not given.
         Ctrl-C leaves one as well.
@@ -123,7 +126,7 @@ def run(
         raise UsageError(f"`reference` has no effect with model `{model}`: leave one of both out, or give model `chain`")
     if reference is not None and any(law is not None for law in laws):
         raise UsageError("`reference` needs laws of the library: leave it out, or add the law to the library")
-    written: dict[str, Any] = {"field": field, "fields": fields, "animation": animation, "frames": frames, "resume": resume, "seeds": seeds, "units": units}
+    written: dict[str, Any] = {"field": field, "fields": fields, "animation": animation, "dump": dump, "frames": frames, "resume": resume, "seeds": seeds, "units": units}
     written["figures"] = formats(figures)
     written["figure_width"] = figure_width
     if out is not None or checkpoint is not None or any(value not in (None, False) for value in written.values()):

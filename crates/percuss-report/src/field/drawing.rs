@@ -1,7 +1,6 @@
 //! Pictures of fields.
 
 use std::{
-    fs,
     path::{Path, PathBuf},
     sync::Mutex,
 };
@@ -80,7 +79,7 @@ pub fn animate(
     let (canvas, palette) = canvas(scenario, quantity, &span);
     let base = canvas.base(ANIMATION_SCALE)?;
     let pictures = folder.join(FOLDER);
-    clear(&pictures);
+    super::clear(&pictures, ".png");
     let progress = Mutex::new((0, progress));
     let indexed: Vec<_> = files
         .par_iter()
@@ -142,18 +141,6 @@ fn label(quantity: FieldQuantity) -> String {
     match letters.next() {
         Some(first) => first.to_uppercase().chain(letters).collect(),
         None => String::new(),
-    }
-}
-
-/// Removes pictures of an earlier run.
-fn clear(folder: &Path) {
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
-        if name.starts_with("frame-") && name.ends_with(".png") {
-            // One too many does no harm.
-            let _ = fs::remove_file(entry.path());
-        }
     }
 }
 

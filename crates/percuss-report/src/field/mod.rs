@@ -6,6 +6,7 @@ mod animation;
 mod colors;
 #[cfg(feature = "png")]
 mod drawing;
+mod dump;
 #[cfg(feature = "png")]
 mod layer;
 #[cfg(feature = "png")]
@@ -20,7 +21,10 @@ mod span;
 mod vtp;
 mod vtp_points;
 
-use std::path::{Path, PathBuf};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use percuss::{Scenario, frames::Frame};
 
@@ -30,6 +34,7 @@ use crate::{ReportError, replace_file::replace_file};
 pub use colors::Colors as FieldColors;
 #[cfg(feature = "png")]
 pub use drawing::animate;
+pub use dump::write_dumps;
 pub use quantity::FieldQuantity;
 #[cfg(feature = "png")]
 pub use raster::View as FieldView;
@@ -37,6 +42,18 @@ pub use selection::FrameSelection;
 pub use series::FieldSeries;
 #[cfg(feature = "png")]
 pub use span::{FieldSpan, usual_range};
+
+/// Removes the frames of an earlier run from a folder, whose names have an ending.
+fn clear(folder: &Path, ending: &str) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        if name.starts_with("frame-") && name.ends_with(ending) {
+            // One too many does no harm.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
 
 /// Stem of the names of the field at the end.
 const FIELD: &str = "field";

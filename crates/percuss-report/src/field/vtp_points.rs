@@ -54,13 +54,26 @@ pub(super) fn values(file: &[u8], name: &str, components: usize) -> Option<Vec<f
     Some(values.collect())
 }
 
+/// Body of every point of a file.
+pub(super) fn bodies(file: &[u8]) -> Option<Vec<u8>> {
+    bytes(file, BODY, 1)
+}
+
+/// Time of a file [s].
+pub(super) fn time(file: &[u8]) -> Option<f64> {
+    number(parts(file)?.0, "TimeValue")
+}
+
+/// A constant of a file.
+fn number(text: &str, name: &str) -> Option<f64> {
+    let tag = format!(r#"Name="{name}" NumberOfTuples="1" format="ascii">"#);
+    after(text, &tag, '<')?.parse().ok()
+}
+
 /// Reads a file of material points; `None` when it is none.
 pub(crate) fn decode(file: &[u8], array: &str, components: usize) -> Option<Points> {
     let (text, _) = parts(file)?;
-    let number = |name: &str| -> Option<f64> {
-        let tag = format!(r#"Name="{name}" NumberOfTuples="1" format="ascii">"#);
-        after(text, &tag, '<')?.parse().ok()
-    };
+    let number = |name: &str| number(text, name);
     let floats = |name: &str, components: usize| values(file, name, components);
     let points = floats(POINTS, 3)?;
     let section = number(SECTION).map(|section| section as f32);
@@ -84,7 +97,7 @@ pub(crate) fn decode(file: &[u8], array: &str, components: usize) -> Option<Poin
         depth: number("depth")?,
         sizes: places.iter().zip(&volumes).map(size).collect(),
         places,
-        bodies: bytes(file, BODY, 1)?,
+        bodies: bodies(file)?,
         values: floats(array, components)?
             .chunks_exact(components)
             .map(|value| match value {

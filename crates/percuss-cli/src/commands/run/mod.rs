@@ -84,8 +84,9 @@ a termination request of the system, leaves a checkpoint in DIR, from which
 
 The two-dimensional models `axi` and `particles` also write their fields at the
 end: field.vtp for ParaView and a picture of one of them, field.png. `axi` adds
-the shapes of crater and projectile (CSV and figure). With --animation it writes
-animation.gif and its pictures (frames/).
+the shapes of crater and projectile (CSV and figure). With --animation they write
+animation.gif and its pictures (frames/), with --dump a text file per frame in
+the format of LAMMPS' dumps, which OVITO reads (dump/).
 
 With --seeds N the model `particles` runs N packings: the seed of the case and
 the next ones. The table and --json (`seeds`) then also have mean, standard
@@ -157,7 +158,10 @@ pub struct Run {
     /// Write an animation of one field of a two-dimensional model, and its pictures
     #[arg(long, requires = "out")]
     animation: bool,
-    /// Most frames of --fields and --animation, 2 to 1000; a run has between half as many and all of them, unless it is too short [default: 64]
+    /// Write the fields of a two-dimensional model against time in LAMMPS' format of dumps, for OVITO
+    #[arg(long, requires = "out")]
+    dump: bool,
+    /// Most frames of --fields, --animation and --dump, 2 to 1000; a run has between half as many and all of them, unless it is too short [default: 64]
     #[arg(long, value_name = "N", requires = "out", value_parser = from_to::<u16>(2, 1000, "a number of frames"))]
     frames: Option<u16>,
     /// How often a numerical model leaves a checkpoint in DIR [default: 60s]
@@ -174,6 +178,11 @@ const COMPUTED: f64 = 0.9;
 const MODEL: f64 = 0.1;
 
 impl Run {
+    /// Whether frames are kept during the run.
+    fn has_frames(&self) -> bool {
+        self.fields || self.animation || self.dump
+    }
+
     pub fn run(&self) -> Result<(), Failure> {
         let say = |words: &str| {
             if !self.quiet {

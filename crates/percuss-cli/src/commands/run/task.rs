@@ -210,7 +210,7 @@ fn series(
     out: &Path,
     start: Option<&Header>,
 ) -> Result<Option<FieldSeries>, Failure> {
-    if !(options.fields || options.animation) {
+    if !options.has_frames() {
         return Ok(None);
     }
     let most = usize::from(options.frames.unwrap_or(FRAMES));
@@ -293,6 +293,10 @@ impl Fields<'_> {
                 &mut report,
             )?);
         }
+        if options.dump {
+            report(0.0, "writing dumps");
+            files.push(percuss_report::write_dumps(out, &series)?);
+        }
         if options.fields {
             files.push(series.collection());
         } else {
@@ -307,6 +311,7 @@ fn check_use(options: &Run, model: &dyn Model) -> Result<(), Failure> {
     let given = [
         ("--fields", options.fields),
         ("--animation", options.animation),
+        ("--dump", options.dump),
         ("--frames", options.frames.is_some()),
         ("--field", options.field.is_some()),
         ("--checkpoint", options.checkpoint.is_some()),
@@ -340,6 +345,7 @@ fn check_use(options: &Run, model: &dyn Model) -> Result<(), Failure> {
     }
     for (option, given) in [
         ("--animation", options.animation),
+        ("--dump", options.dump),
         ("--field", options.field.is_some()),
     ] {
         if given && !model.is_two_dimensional() {
@@ -351,10 +357,11 @@ fn check_use(options: &Run, model: &dyn Model) -> Result<(), Failure> {
         let what = "to which no axisymmetric answer is added";
         return Err(useless(what, "--reference", "`--model chain`, or no model"));
     }
-    if options.frames.is_some() && !(options.fields || options.animation) {
+    if options.frames.is_some() && !options.has_frames() {
         return Err(Failure::Usage {
-            message: "`--frames` has no effect without `--fields` or `--animation`".to_owned(),
-            help: "remove `--frames`, or add `--fields` or `--animation`".to_owned(),
+            message: "`--frames` has no effect without `--fields`, `--animation` or `--dump`"
+                .to_owned(),
+            help: "remove `--frames`, or add `--fields`, `--animation` or `--dump`".to_owned(),
         });
     }
     Ok(())
