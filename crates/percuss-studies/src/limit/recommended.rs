@@ -38,7 +38,7 @@ pub(super) fn recommended(
     let contradicts = |ratio: &f64| ratio.max(1.0 / ratio) > CONTRADICTION;
     if let Some(ratio) = choices.iter().filter_map(ratio).find(contradicts) {
         let note = format!(
-            "the axisymmetric limit is {} times that of this model. Failure of plates under blunt noses is the least certain part of `axi`: take \
+            "the axisymmetric limit is {} times that of this model. Failure of plates is the least certain part of `axi`: take \
              the range of all models as the uncertainty",
             significant(ratio, 2)
         );
