@@ -84,9 +84,9 @@ a termination request of the system, leaves a checkpoint in DIR, from which
 
 The two-dimensional models `axi` and `particles` also write their fields at the
 end: field.vtp for ParaView and a picture of one of them, field.png. `axi` adds
-the shapes of crater and projectile (CSV and figure). With --animation they write
-animation.gif and its pictures (frames/), with --dump a text file per frame in
-the format of LAMMPS' dumps, which OVITO reads (dump/).
+the shapes of crater and projectile (CSV and figure). With --animation they
+write animation.gif and its pictures (frames/), with --dump a text file per
+frame in the format of LAMMPS' dumps, which OVITO reads (dump/).
 
 With --seeds N the model `particles` runs N packings: the seed of the case and
 the next ones. The table and --json (`seeds`) then also have mean, standard
