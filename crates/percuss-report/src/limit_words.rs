@@ -86,3 +86,42 @@ pub fn axisymmetric_limit(limits: &Limits) -> Option<String> {
     let shown = with_uncertainty(value, limit.uncertainty_m_s.unwrap_or(0.0), "m/s");
     Some(shown + &from_measured(limits, value))
 }
+
+#[cfg(test)]
+mod tests {
+    use percuss::{
+        case,
+        limit::{Observer, Search, limits},
+        model,
+    };
+
+    use super::limit_headline;
+
+    #[test]
+    fn limits_without_a_recommended_model_have_a_headline() {
+        let text = "projectile = { material = '4340-johnson-cook', length = '40 mm', diameter = '20 mm', impact_velocity = '300 m/s' }\n\
+                    target = { material = 'weldox-460-e-borvik', thickness = '8 mm', back_face = 'free' }\n";
+        let scenario = case::load_str("case.toml", text).unwrap();
+        let headline = |names: &[&str]| {
+            let models: Vec<_> = names
+                .iter()
+                .map(|name| model::model(name).unwrap())
+                .collect();
+            let (search, mut observer) = (Search::default(), Observer::default());
+            let found = limits(&models, &scenario, &search, &mut observer).unwrap();
+            assert_eq!(found.recommended, []);
+            limit_headline(&found).unwrap()
+        };
+        let one = headline(&["awerbuch_bodner"]);
+        assert!(
+            one.starts_with("Ballistic limit ")
+                && one.ends_with(" m/s (awerbuch_bodner), model error not known"),
+            "{one}"
+        );
+        let two = headline(&["plugging", "awerbuch_bodner"]);
+        assert!(
+            two.contains(" to ") && two.ends_with(" m/s: no model is recommended"),
+            "{two}"
+        );
+    }
+}

@@ -176,6 +176,11 @@ impl ConvergenceStatus {
 
     /// The status in words.
     pub fn describe(&self) -> String {
+        self.in_words("")
+    }
+
+    /// The same; `from` says where a fourth mesh should start, if not where the three do.
+    fn in_words(&self, from: &str) -> String {
         match *self {
             Self::Exact => "the finest meshes agree to rounding".to_owned(),
             Self::TooFew => "less than three meshes show no convergence".to_owned(),
@@ -203,7 +208,7 @@ impl ConvergenceStatus {
                 spread,
             } => format!(
                 "convergence is not confirmed: {}; the finest meshes differ by {:.2} %",
-                doubt(order, earlier_order, meshes),
+                doubt(order, earlier_order, meshes, from),
                 100.0 * spread
             ),
             Self::Oscillating { spread } => {
@@ -220,11 +225,8 @@ impl ConvergenceStatus {
     }
 }
 
-/// Advice where three meshes confirm no order.
-const FOURTH_MESH: &str = "run `--levels 4`";
-
 /// Why an observed order confirms nothing, and what to do.
-fn doubt(order: f64, earlier: Option<f64>, meshes: usize) -> String {
+fn doubt(order: f64, earlier: Option<f64>, meshes: usize, from: &str) -> String {
     if order < *CREDIBLE_ORDERS.start() {
         return format!("order {order:.2} is too slow for an extrapolation, refine further");
     }
@@ -235,7 +237,7 @@ fn doubt(order: f64, earlier: Option<f64>, meshes: usize) -> String {
     }
     match earlier {
         None if meshes <= 3 => {
-            format!("three meshes give one order ({order:.2}); {FOURTH_MESH}")
+            format!("three meshes give one order ({order:.2}); run `--levels 4`{from}")
         }
         None => format!(
             "order {order:.2} on the finest meshes, none on the coarser ones; refine further"
@@ -331,21 +333,14 @@ impl MeshStudy {
 
     /// The status of a quantity in words, with the advice that fits the cost of its model.
     pub fn describe(&self, quantity: &Quantity) -> String {
-        let words = quantity.status.describe();
         let cells = |mesh: Option<&Mesh>| mesh.and_then(|mesh| mesh.cells_per_radius);
         let ends = cells(self.meshes.first()).zip(cells(self.meshes.last()));
-        let Some((coarsest, finest)) = ends else {
-            return words;
-        };
-        // Four meshes up to the finest one cost what these did.
-        let start = (finest / REFINEMENT.pow(3)).max(COARSE_CELLS);
-        match start < coarsest {
-            true => words.replace(
-                FOURTH_MESH,
-                &format!("run `--levels 4` from `axi.cells_per_radius = {start}` on"),
-            ),
-            false => words,
-        }
+        let from = ends.and_then(|(coarsest, finest)| {
+            // Four meshes up to the finest one cost what these did.
+            let start = (finest / REFINEMENT.pow(3)).max(COARSE_CELLS);
+            (start < coarsest).then(|| format!(" from `axi.cells_per_radius = {start}` on"))
+        });
+        quantity.status.in_words(&from.unwrap_or_default())
     }
 }
 

@@ -88,22 +88,23 @@ fn a_band_of_its_own_width_makes_the_residual_velocity_independent_of_the_mesh()
 }
 
 #[test]
-fn a_plate_without_damage_in_its_record_has_a_warning() {
-    let warned = |damage: &str| {
+fn plates_whose_failure_is_uncertain_have_a_warning() {
+    let warned = |nose: &str, damage: &str, words: &str| {
         let plate = format!("{METAL}{damage}");
-        let mut scenario = scenario(CONE, 400.0, 10.0, &plate, "axi.cells_per_radius = 2");
+        let mut scenario = scenario(nose, 400.0, 10.0, &plate, "axi.cells_per_radius = 2");
         let TargetBody::Layers { back_face, .. } = &mut scenario.target else {
             panic!("no plate");
         };
         *back_face = RearFaceCondition::Free;
         let result = run("axi", &scenario);
-        result
-            .warnings
-            .iter()
-            .any(|w| w.contains("stretching and thinning alone"))
+        result.warnings.iter().any(|w| w.contains(words))
     };
-    assert!(warned(""));
-    assert!(!warned(", damage = { d1 = 0.1, d2 = 0.8, d3 = -1.5 }"));
+    const DAMAGE: &str = ", damage = { d1 = 0.1, d2 = 0.8, d3 = -1.5 }";
+    let lacks = "stretching and thinning alone";
+    assert!(warned(CONE, "", lacks) && !warned(CONE, DAMAGE, lacks));
+    let blunt = "fails under a blunt nose is uncertain";
+    assert!(warned("\"flat\"", DAMAGE, blunt));
+    assert!(!warned(CONE, DAMAGE, blunt) && !warned("\"flat\"", "", blunt));
 }
 
 #[test]

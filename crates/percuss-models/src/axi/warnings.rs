@@ -17,12 +17,10 @@ const TRANSFER: f64 = 0.1;
 /// Diameters of the projectile below which a target bends or bulges.
 const PLATE: f64 = 3.0;
 
-/// Whether a target that is a plate to its projectile cannot move at its back.
-fn holds_a_plate(scenario: &Scenario) -> bool {
-    let thin = scenario
-        .target_thickness()
-        .is_some_and(|thickness| thickness < PLATE * scenario.projectile.diameter);
-    thin && scenario.rear_face() == Some(RearFaceCondition::Fixed)
+/// Whether a target is a plate to its projectile.
+fn is_plate(scenario: &Scenario) -> bool {
+    let thickness = scenario.target_thickness();
+    thickness.is_some_and(|thickness| thickness < PLATE * scenario.projectile.diameter)
 }
 
 /// Ids of the case's materials of a kind, each once.
@@ -80,7 +78,8 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
             ));
         }
     }
-    if holds_a_plate(run.scenario) {
+    let is_held = run.scenario.rear_face() == Some(RearFaceCondition::Fixed);
+    if is_held && is_plate(run.scenario) {
         warnings.push(
             "the plate can neither bend, bulge nor be perforated: its rear face is fixed (the default). Set `back_face = \"free\""
                 .to_owned(),
@@ -104,9 +103,7 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
     let can_fail = materials(run.scenario)
         .skip(1)
         .any(|(material, _)| material.damage.is_some());
-    let thickness = run.scenario.target_thickness().unwrap_or(f64::INFINITY);
-    let is_plate = thickness < PLATE * run.scenario.projectile.diameter;
-    if free && is_plate && can_fail && run.scenario.projectile.nose == Nose::Flat {
+    if free && is_plate(run.scenario) && can_fail && run.scenario.projectile.nose == Nose::Flat {
         warnings.push(
             "whether a plate fails under a blunt nose is uncertain: limits by `axi` are 1.2 to 2.1 times those of `power_balance`. Compare both by \
              `percuss limit`"

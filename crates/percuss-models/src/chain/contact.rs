@@ -73,7 +73,7 @@ impl State {
             velocity: [a.velocity, b.velocity],
             force: [a.force, b.force],
             spring_force: [a.spring_force, b.spring_force],
-            friction: [a.friction, b.friction],
+            friction: [a, b].map(|node| node.friction_between(&self.gaps)),
         }
     }
 

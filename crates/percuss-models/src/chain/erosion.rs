@@ -56,10 +56,7 @@ impl State {
             self.accumulated.eroded_energy += 0.5 * mass * velocity * velocity;
             self.accumulated.eroded_momentum += mass * velocity;
             self.nodes[i].mass -= mass;
-            let frictions = std::iter::once(&mut self.nodes[i].friction);
-            for friction in frictions.chain(self.frictions.get_mut(i)) {
-                *friction = (*friction - half_friction).max(0.0);
-            }
+            self.nodes[i].friction = (self.nodes[i].friction - half_friction).max(0.0);
             if let Some(hold) = &mut self.hold {
                 hold.bands.erode(i, 0.5 * self.elements[e].rest_length);
             }

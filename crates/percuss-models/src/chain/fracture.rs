@@ -137,11 +137,6 @@ impl State {
         behind.mass -= ahead.mass;
         behind.friction -= ahead.friction;
         self.nodes.insert(node + 1, ahead);
-        if let Some(friction) = self.frictions.get_mut(node) {
-            let ahead = friction.min(share);
-            *friction -= ahead;
-            self.frictions.insert(node + 1, ahead);
-        }
         if let Some(hold) = &mut self.hold {
             hold.bands.part(node);
         }

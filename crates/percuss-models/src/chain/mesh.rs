@@ -213,7 +213,6 @@ fn assemble(
         end,
         tip_friction: 0.0,
         gaps: Vec::new(),
-        frictions: Vec::new(),
         tip: None,
         penetration: None,
         hold: None,
@@ -321,9 +320,6 @@ fn assemble(
     // The boundary's own impedance stands for everything behind it, border shear included.
     if let (BoundaryCondition::Open { .. }, Some(last)) = (end, state.nodes.last_mut()) {
         last.friction = 0.0;
-    }
-    if !state.gaps.is_empty() {
-        state.frictions = state.nodes.iter().map(|node| node.friction).collect();
     }
     state
 }

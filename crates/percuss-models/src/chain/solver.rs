@@ -110,15 +110,15 @@ impl Node {
         self.velocity_before = self.velocity;
     }
 
-    /// Kicks the node for a time over its mass.
+    /// Kicks the node for a time over its mass against friction.
     #[inline(always)]
-    fn kick(&mut self, ratio: f64, sums: &mut FrictionSums) {
+    fn kick(&mut self, ratio: f64, friction: f64, sums: &mut FrictionSums) {
         let velocity = self.velocity;
-        if self.friction > 0.0 {
+        if friction > 0.0 {
             let kicked = KickedMasses {
                 mass: self.mass,
                 ratio,
-                limit: self.friction * ratio,
+                limit: friction * ratio,
             };
             let after = sums.kick(&kicked, velocity, velocity != 0.0, self.force);
             self.velocity = after.unwrap_or(velocity);
@@ -134,7 +134,6 @@ impl State {
         let allowed = control.courant * control.damped(self.stable_step);
         let step = StepTimes::choose(self.time_step, allowed.min(control.longest_step));
         let (kick, time_step) = (step.kick, step.length);
-        self.release_in_gaps();
         self.collect_forces();
         self.collect_band_forces();
         self.apply_cohesive_traction();
@@ -158,15 +157,6 @@ impl State {
             self.split_failed_interfaces();
         }
         Ok(())
-    }
-
-    /// Takes border shear off what is in a gap: nothing around it holds it.
-    fn release_in_gaps(&mut self) {
-        for (node, &friction) in self.nodes.iter_mut().zip(&self.frictions) {
-            let is_between = |[from, to]: &[f64; 2]| *from < node.position && node.position < *to;
-            let is_free = self.gaps.iter().any(is_between);
-            node.friction = if is_free { 0.0 } else { friction };
-        }
     }
 
     fn collect_forces(&mut self) {
@@ -249,7 +239,7 @@ impl State {
                 mass = node.mass;
                 ratio = kick / mass;
             }
-            node.kick(ratio, &mut sums);
+            node.kick(ratio, node.friction_between(&self.gaps), &mut sums);
         }
         self.accumulated.kicks.friction = sums;
     }
@@ -257,7 +247,8 @@ impl State {
     pub(super) fn kick_free(&mut self, i: usize, kick: f64) {
         let node = &mut self.nodes[i];
         let mut of_node = FrictionSums::default();
-        node.kick(kick / node.mass, &mut of_node);
+        let friction = node.friction_between(&self.gaps);
+        node.kick(kick / node.mass, friction, &mut of_node);
         let sums = &mut self.accumulated.kicks.friction;
         sums.impulse += of_node.impulse;
         sums.work += of_node.work;

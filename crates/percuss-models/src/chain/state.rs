@@ -71,8 +71,21 @@ pub(super) struct Node {
     pub(super) spring_force: f64,
     /// Force of local damping in this step, part of `force` [N].
     pub(super) damping: f64,
-    /// Largest friction force [N].
+    /// Largest friction force [N], where it is not in a gap.
     pub(super) friction: f64,
+}
+
+impl Node {
+    /// Largest friction force on it [N]: none in a gap, where nothing is around it.
+    #[inline(always)]
+    pub(super) fn friction_between(&self, gaps: &[[f64; 2]]) -> f64 {
+        let is_inside = |[from, to]: &[f64; 2]| *from < self.position && self.position < *to;
+        if gaps.iter().any(is_inside) {
+            0.0
+        } else {
+            self.friction
+        }
+    }
 }
 
 /// A normal spring with its constitutive state.
@@ -190,8 +203,6 @@ pub(super) struct State {
 
     /// Depths between which there is nothing around the target before the impact [m].
     pub(super) gaps: Vec<[f64; 2]>,
-    /// Largest friction force on every node while it is not in a gap [N]; empty where there are none.
-    pub(super) frictions: Vec<f64>,
 
     pub(super) nodes: Vec<Node>,
     /// All elements, eroded ones too.
@@ -226,7 +237,6 @@ impl State {
             hold.archive(archive)?;
         }
         archive.item(&mut self.drag)?;
-        archive.item(&mut self.frictions)?;
         archive.item(&mut self.nodes)?;
         archive.item(&mut self.elements)?;
         archive.item(&mut self.time)?;

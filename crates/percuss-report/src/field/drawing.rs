@@ -5,11 +5,7 @@ use std::{
     sync::Mutex,
 };
 
-use percuss::{
-    Scenario,
-    input_file::{self, MAX_OWN_BYTES},
-    scenario::TargetBody,
-};
+use percuss::{Scenario, scenario::TargetBody};
 use rayon::prelude::*;
 
 use super::{
@@ -145,18 +141,11 @@ fn label(quantity: FieldQuantity) -> String {
 }
 
 fn read(file: &Path, quantity: FieldQuantity) -> Result<Points, ReportError> {
-    let bytes = input_file::bytes(file, MAX_OWN_BYTES).map_err(|error| ReportError::Read {
-        path: file.to_owned(),
-        reason: error.to_string(),
-    })?;
-    points(&bytes, file, quantity)
+    points(&super::read(file)?, file, quantity)
 }
 
 /// The points in the bytes of a file.
 fn points(bytes: &[u8], file: &Path, quantity: FieldQuantity) -> Result<Points, ReportError> {
     let (array, components, _) = quantity.source();
-    vtp_points::decode(bytes, array, components).ok_or_else(|| ReportError::Read {
-        path: file.to_owned(),
-        reason: "it is damaged or of another program".to_owned(),
-    })
+    vtp_points::decode(bytes, array, components).ok_or_else(|| super::damaged(file))
 }

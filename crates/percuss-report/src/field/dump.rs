@@ -5,10 +5,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use percuss::input_file::{self, MAX_OWN_BYTES};
-
 use super::{
-    FieldSeries, clear,
+    FieldSeries, clear, damaged, read,
     vtp::{POINTS, SIDES},
     vtp_points::{bodies, time, values},
 };
@@ -35,20 +33,14 @@ pub fn write_dumps(out: &Path, series: &FieldSeries) -> Result<PathBuf, ReportEr
     let folder = out.join(FOLDER);
     clear(&folder, ENDING);
     for (number, path) in series.files() {
-        let unreadable = |reason: String| ReportError::Read {
-            path: path.clone(),
-            reason,
-        };
-        let file = input_file::bytes(&path, MAX_OWN_BYTES)
-            .map_err(|error| unreadable(error.to_string()))?;
-        let text = dump(&file, number).ok_or_else(|| unreadable("no field file".to_owned()))?;
+        let text = dump(&read(&path)?, number).ok_or_else(|| damaged(&path))?;
         let name = format!("frame-{number:05}{ENDING}");
         replace_file(&folder, &name, text.as_bytes())?;
     }
     Ok(folder)
 }
 
-/// The dump of a field file; `None` when it has no particles. Positions and axes are those of the file.
+/// The dump of a field file; `None` when it has no particles. Positions and axes are those of the file; the time step is the number of the frame.
 fn dump(file: &[u8], number: u64) -> Option<String> {
     let vectors = |name: &str| values(file, name, 3);
     let (places, velocities) = (vectors(POINTS)?, vectors("velocity")?);
@@ -90,12 +82,9 @@ fn dump(file: &[u8], number: u64) -> Option<String> {
 mod tests {
     use std::fs;
 
-    use percuss::{
-        axi::Particle,
-        frames::{Bonds, Fields, Frame},
-    };
+    use percuss::axi::Particle;
 
-    use super::*;
+    use super::{super::vtp::tests::frame, *};
 
     #[test]
     fn a_dump_has_the_numbers_of_the_frame() {
@@ -108,20 +97,8 @@ mod tests {
             damage,
             ..Particle::default()
         };
-        let bodies = [vec![particle(1e-3, 0.0)], vec![particle(2e-3, 0.5)]];
-        let frame = Frame {
-            number: 7,
-            last: false,
-            step: 10,
-            time: 1.5e-6,
-            depth: 2e-3,
-            fields: Fields::Particles {
-                cell: 1e-4,
-                bodies: bodies.map(|body| body.into_iter().collect()).into(),
-                bonds: Bonds::default(),
-                across: None,
-            },
-        };
+        let bodies = [[particle(1e-3, 0.0)], [particle(2e-3, 0.5)]];
+        let frame = frame(7, &bodies, Vec::new());
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join(FOLDER)).unwrap();
         let stale = folder.path().join(FOLDER).join("frame-00900.dump");

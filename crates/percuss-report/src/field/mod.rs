@@ -26,7 +26,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use percuss::{Scenario, frames::Frame};
+use percuss::{
+    Scenario,
+    frames::Frame,
+    input_file::{self, MAX_OWN_BYTES},
+};
 
 use crate::{ReportError, replace_file::replace_file};
 
@@ -52,6 +56,22 @@ fn clear(folder: &Path, ending: &str) {
             // One too many does no harm.
             let _ = fs::remove_file(entry.path());
         }
+    }
+}
+
+/// The bytes of a field file.
+fn read(file: &Path) -> Result<Vec<u8>, ReportError> {
+    input_file::bytes(file, MAX_OWN_BYTES).map_err(|error| ReportError::Read {
+        path: file.to_owned(),
+        reason: error.to_string(),
+    })
+}
+
+/// That a file has no fields.
+fn damaged(file: &Path) -> ReportError {
+    ReportError::Read {
+        path: file.to_owned(),
+        reason: "it is damaged or of another program".to_owned(),
     }
 }
 

@@ -110,7 +110,7 @@ impl Canvas {
             // A second line leaves the space above the numbers of the bar.
             let (size, places) = match self.note.as_str() {
                 "" => (12, vec![(depth.as_str(), 31.0)]),
-                note => (11, vec![(depth.as_str(), 27.0), (note, 38.0)]),
+                note => (10, vec![(depth.as_str(), 25.0), (note, 35.0)]),
             };
             for (line, below) in places {
                 let y = top + below;

@@ -415,13 +415,35 @@ fn rounded(value: f32) -> f32 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use percuss::frames::Bond;
 
     use super::{
         super::vtp_points::{decode, values},
         *,
     };
+
+    /// A frame of bodies of as many particles each.
+    pub(in super::super) fn frame<const N: usize>(
+        number: u64,
+        bodies: &[[Particle; N]],
+        bonds: Vec<Bond>,
+    ) -> Frame<'static> {
+        let bodies = bodies.iter().map(|body| body.iter().copied().collect());
+        Frame {
+            number,
+            last: false,
+            step: 10,
+            time: 1.5e-6,
+            depth: 2e-3,
+            fields: Fields::Particles {
+                cell: 1e-4,
+                bodies: bodies.collect(),
+                bonds: Bonds::Kept(bonds.into()),
+                across: None,
+            },
+        }
+    }
 
     fn bond(from: u32, to: u32, damage: f32) -> Bond {
         Bond {
@@ -442,22 +464,7 @@ mod tests {
         };
         let gone = Particle::default();
         let bodies = [[particle, gone], [particle, particle]];
-        let frame = Frame {
-            number: 3,
-            last: false,
-            step: 10,
-            time: 1.5e-6,
-            depth: 2e-3,
-            fields: Fields::Particles {
-                cell: 1e-4,
-                bodies: bodies
-                    .iter()
-                    .map(|body| body.iter().copied().collect())
-                    .collect(),
-                bonds: Bonds::Kept(vec![bond(0, 1, 0.5), bond(1, 2, 1.0)].into()),
-                across: None,
-            },
-        };
+        let frame = frame(3, &bodies, vec![bond(0, 1, 0.5), bond(1, 2, 1.0)]);
         let file = encode(&frame);
         let text = String::from_utf8_lossy(&file);
         assert!(text.contains(r#"NumberOfVerts="1" NumberOfLines="2""#));

@@ -244,6 +244,18 @@ fn the_axisymmetric_limit_is_recommended_where_no_other_one_is_judged() {
         assert!(found.results[0].expected_error.is_some());
         assert_eq!(chosen(&found), ["power_balance"]);
     }
+    // Where such a plate holds at every velocity, no other range of velocities is advised.
+    let slow = Search {
+        axisymmetric: search.axisymmetric,
+        ..self::search(5.0, 10.0, 0)
+    };
+    let case = light(None);
+    let held = limits(&[&PowerBalance], &case, &slow, &mut Observer::default()).unwrap();
+    let reason = held.axisymmetric.unwrap().reason.unwrap();
+    assert!(
+        reason.contains("has no `damage` in its record") && !reason.contains("range"),
+        "{reason}"
+    );
 }
 
 /// Beyond the budget there is the cost and the remedy, and the other models have their limits.
