@@ -110,7 +110,7 @@ impl Periodic {
     }
 
     /// Twice the energy per area at a strain `[ε_xx, ε_zz, γ]`.
-    fn stiffness(&self, strain: [f64; 3]) -> f64 {
+    pub(super) fn stiffness(&self, strain: [f64; 3]) -> f64 {
         let still = vec![[0.0; 3]; self.count];
         let mut residual = self.forces(&still, strain);
         let mut field = still;

@@ -12,6 +12,7 @@ mod lattice;
 mod motion;
 mod orientation;
 mod packing;
+mod two_notches;
 
 use super::{
     body::{Body, Rows},

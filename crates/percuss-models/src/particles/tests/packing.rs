@@ -103,6 +103,49 @@ fn an_irregular_packing_has_the_constants_of_the_solid() {
     }
 }
 
+/// Speeds of long waves over those of the solid, in eight directions 11.25° apart: of the longitudinal and of the transverse one, by
+/// Christoffel's equation.
+fn wave_speeds(space: Space, ratio: f64, moved: Moved) -> [[f64; 2]; 8] {
+    let lattice = solid(ratio).lattice(space, 1e-3);
+    let (first, second) = solid(ratio).plane_constants(space);
+    let cell = Periodic::new(&moved.tuned(&lattice), SIZE, moved);
+    let [c11, c22, c12, c66] = cell.constants();
+    let with_shear = |strain: [f64; 3], own: f64| 0.5 * (cell.stiffness(strain) - own - c66);
+    let c16 = with_shear([1.0, 0.0, 1.0], c11);
+    let c26 = with_shear([0.0, 1.0, 1.0], c22);
+    std::array::from_fn(|i| {
+        let (z, x) = (i as f64 * std::f64::consts::FRAC_PI_2 / 8.0).sin_cos();
+        let along = c11 * x * x + c66 * z * z + 2.0 * c16 * x * z;
+        let up = c66 * x * x + c22 * z * z + 2.0 * c26 * x * z;
+        let both = c16 * x * x + c26 * z * z + (c12 + c66) * x * z;
+        let (mean, part) = (0.5 * (along + up), (0.5 * (along - up)).hypot(both));
+        let exact = [first + 2.0 * second, second];
+        [(mean + part) / exact[0], (mean - part) / exact[1]].map(f64::sqrt)
+    })
+}
+
+/// Within 1 % in eight directions, as the mean over five seeds.
+#[test]
+fn waves_have_one_speed_in_all_directions() {
+    for (space, ratio) in [(Space::PlaneStress, 0.22), (Space::PlaneStrain, 0.22)] {
+        let mut mean = [[0.0; 2]; 8];
+        for seed in 1..=5 {
+            let speeds = wave_speeds(space, ratio, moved(0.3, seed));
+            for (mean, speed) in mean
+                .as_flattened_mut()
+                .iter_mut()
+                .zip(speeds.as_flattened())
+            {
+                *mean += speed / 5.0;
+            }
+        }
+        println!("{space:?} {ratio}: {mean:.4?}");
+        for speed in mean.as_flattened() {
+            assert!((speed - 1.0).abs() < 0.01, "{space:?} {ratio}: {mean:.4?}");
+        }
+    }
+}
+
 #[test]
 fn a_moved_body_has_the_mass_and_the_area_of_the_lattice() {
     let (regular, moved) = (body(0.0), body(0.3));
