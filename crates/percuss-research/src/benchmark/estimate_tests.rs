@@ -25,7 +25,8 @@ fn an_error_of_first_order_is_removed() {
         for constant in [3.0, -3.0] {
             let estimate = depth_of(&power(cells, 1.0, constant)).unwrap();
             assert!((estimate.depth_mm - 8.5).abs() < 1e-9, "{estimate:?}");
-            let off = 3.0 / f64::from(*cells.last().unwrap());
+            // With the factor of safety of three meshes.
+            let off = 1.25 * 3.0 / f64::from(*cells.last().unwrap());
             assert!((estimate.uncertainty_mm - off).abs() < 1e-9);
         }
     }
@@ -40,9 +41,9 @@ fn an_uncertainty_above_15_percent_is_refused() {
         panic!("{:?}", oscillating(0.61));
     };
     assert!((uncertainty - 1.22 / 8.0).abs() < 1e-12);
-    // A shallow crater is known to a twentieth of a cell: 0.0156 mm on 8 cells of a radius of 2.5 mm.
-    assert!(of(&[(4, 0.11), (6, 0.11), (8, 0.11)]).is_ok());
-    assert!(of(&[(4, 0.1), (6, 0.1), (8, 0.1)]).is_err());
+    // A shallow crater is known to 8 % of a cell: 0.025 mm on 8 cells of a radius of 2.5 mm.
+    assert!(of(&[(4, 0.17), (6, 0.17), (8, 0.17)]).is_ok());
+    assert!(of(&[(4, 0.16), (6, 0.16), (8, 0.16)]).is_err());
     for few in [&[][..], &[(8, 2.0)], &[(4, 2.0), (8, 2.0)]] {
         assert_eq!(of(few), Err(Refusal::TooFewMeshes));
     }
@@ -76,7 +77,7 @@ fn a_long_rod_that_stops_short_of_a_shorter_one_is_refused() {
         assert!(checked[0].estimate.is_ok());
         checked[1].estimate.err()
     };
-    // 1.000 ± 0.025 mm at L/D 3, and ± 5 % at L/D 10.
+    // 1.000 ± 0.031 mm at L/D 3, and ± 5 % at L/D 10.
     assert_eq!(refused(0.93), None);
     assert!(matches!(
         refused(0.92),
