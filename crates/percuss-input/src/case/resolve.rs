@@ -150,7 +150,7 @@ fn resolve_rod(case: &Case, library: &Library, check: &mut Check<'_>) -> Option<
         .projectile
         .length_and_mass(entry.material.density.si())?;
     let diameter = case.projectile.diameter.si();
-    let nose = case.projectile.nose;
+    let nose = case.projectile.nose();
     let given = if case.projectile.length.is_some() {
         "length"
     } else {
