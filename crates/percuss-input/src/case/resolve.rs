@@ -58,7 +58,7 @@ pub(super) fn resolve(
     Some(scenario)
 }
 
-/// Gauges, each of which lies in a body.
+/// Gauges, of which each that moves with the material lies in a body.
 fn gauges(gauges: &[Gauge], scenario: &Scenario, check: &mut Check<'_>) -> Vec<GaugePlace> {
     let behind = -scenario.projectile.length;
     let ahead = match &scenario.target {
@@ -69,12 +69,12 @@ fn gauges(gauges: &[Gauge], scenario: &Scenario, check: &mut Check<'_>) -> Vec<G
         _ => 0.0,
     };
     for (i, gauge) in gauges.iter().enumerate() {
-        if !(behind..=ahead).contains(&gauge.position.si()) {
+        if !gauge.fixed && !(behind..=ahead).contains(&gauge.position.si()) {
             check.fail(
                 &format!("gauges.{i}.position"),
                 format!("{} lies in no body", gauge.position),
                 format!(
-                    "allowed: {} (rear end of the projectile) to {} (end of the modelled target)",
+                    "allowed: {} (rear end of the projectile) to {} (end of the modelled target); `fixed = true` is for places beside them",
                     Length::new(behind),
                     Length::new(ahead)
                 ),
@@ -84,6 +84,7 @@ fn gauges(gauges: &[Gauge], scenario: &Scenario, check: &mut Check<'_>) -> Vec<G
     let place = |(i, gauge): (usize, &Gauge)| GaugePlace {
         name: gauge.name(i),
         position: gauge.position.si(),
+        fixed: gauge.fixed,
     };
     gauges.iter().enumerate().map(place).collect()
 }
