@@ -295,6 +295,13 @@ pub mod limits {
     pub const TIME: Limits = limits(1e-9, 10.0);
     /// Nose length in units of the body's diameter, cone.
     pub const CONE_RATIO: Limits = limits(0.1, 20.0);
+    /// Half angle of a cone [rad], from 1.4321 to 78.69 degrees: that of a length in [`CONE_RATIO`], rounded inwards.
+    pub const CONE_HALF_ANGLE: Limits = limits(
+        1.4321 * std::f64::consts::PI / 180.0,
+        78.69 * std::f64::consts::PI / 180.0,
+    );
+    /// Nose length in units of the body's diameter, ogive: that of [`CALIBER_RADIUS_HEAD`], rounded inwards.
+    pub const OGIVE_RATIO: Limits = limits(0.5, 7.05);
     /// Caliber-radius-head of an ogive.
     pub const CALIBER_RADIUS_HEAD: Limits = limits(0.5, 50.0);
     /// Unconfined compressive strength of concrete [Pa].

@@ -55,6 +55,8 @@ pub struct ElementState {
     pub initial_position: f64,
     /// Current position of its middle [m].
     pub position: f64,
+    /// Displacement of its material since the start [m]; no number where the material in it changes.
+    pub displacement: f64,
     /// Current length [m].
     pub length: f64,
     /// Axial stress, compression positive [Pa].
@@ -79,6 +81,7 @@ impl ElementState {
             part,
             initial_position,
             position: none,
+            displacement: none,
             length: none,
             stress: none,
             strain: none,
@@ -96,6 +99,7 @@ impl ElementState {
             part: self.part,
             initial_position: mixed(|e| e.initial_position),
             position: mixed(|e| e.position),
+            displacement: mixed(|e| e.displacement),
             length: mixed(|e| e.length),
             stress: mixed(|e| e.stress),
             strain: mixed(|e| e.strain),
@@ -145,13 +149,15 @@ pub struct History {
     pub gauges: Vec<GaugeHistory>,
 }
 
-/// A point of the material on the axis.
+/// A point of the material on the axis, or a place there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GaugePlace {
     /// Name in results.
     pub name: String,
     /// Position before the impact, below the struck face [m]; negative in the projectile.
     pub position: f64,
+    /// Whether it stays at that place, whatever material is there.
+    pub fixed: bool,
 }
 
 /// History of the material at a gauge.
@@ -161,7 +167,7 @@ pub struct GaugeHistory {
     pub name: String,
     /// Times [s]: those of the samples.
     pub times: Vec<f64>,
-    /// State of the material; not a number once it has eroded.
+    /// State of the material; not a number once it has eroded, and at a fixed place without any.
     pub states: Vec<ElementState>,
 }
 

@@ -116,7 +116,7 @@ pub struct Rod {
     pub diameter: f64,
     /// Shape of the nose.
     pub nose: Nose,
-    /// Temperature before the impact [K], where it is not the one that its material was measured at.
+    /// Temperature before the impact [K], where the case gives one.
     pub temperature: Option<f64>,
 }
 
@@ -124,6 +124,11 @@ impl Rod {
     /// Cross-sectional area of the shank [m2].
     pub fn area(&self) -> f64 {
         PI * self.diameter * self.diameter / 4.0
+    }
+
+    /// Temperature before the impact [K].
+    pub fn start_temperature(&self) -> f64 {
+        start_temperature(self.temperature, &self.material)
     }
 }
 
@@ -173,6 +178,36 @@ pub struct Plate {
     pub interface: LayerInterface,
     /// Diameter of the column that is modelled [m]; that of the target where `None`.
     pub column_diameter: Option<f64>,
+    /// Temperature before the impact [K], where the case gives one.
+    pub temperature: Option<f64>,
+}
+
+impl Plate {
+    /// Temperature before the impact [K].
+    pub fn start_temperature(&self) -> f64 {
+        start_temperature(self.temperature, &self.material)
+    }
+
+    /// Flow stress at unit plastic strain, slow and at its temperature before the impact [Pa]: the one number that border shear uses.
+    pub fn flow_stress_at_unit_strain(&self) -> Option<f64> {
+        match is_heated(self.temperature, &self.material) {
+            false => {
+                let law = self.material.strength.law();
+                law.flow_stress_at_unit_strain(&self.material)
+            }
+            true => self.material.flow_stress_at(1.0, self.start_temperature()),
+        }
+    }
+}
+
+/// Temperature of a body before the impact [K], where a case may give one.
+fn start_temperature(given: Option<f64>, material: &Material) -> f64 {
+    given.unwrap_or(material.room_temperature.si())
+}
+
+/// Whether a body is not at the temperature that its material was measured at.
+fn is_heated(given: Option<f64>, material: &Material) -> bool {
+    start_temperature(given, material) != material.room_temperature.si()
 }
 
 impl Scenario {
@@ -206,14 +241,30 @@ impl Scenario {
 
     /// Whether the constants of one of its materials were calibrated on tests of a source.
     pub fn is_calibrated_on(&self, source: &str) -> bool {
-        let layers: &[Plate] = match &self.target {
-            TargetBody::Layers { layers, .. } => layers,
-            _ => &[],
-        };
         std::iter::once(&self.projectile.material)
-            .chain(layers.iter().map(|layer| &layer.material))
+            .chain(self.layers().iter().map(|layer| &layer.material))
             .filter_map(|material| material.calibrated.as_ref())
             .any(|calibrated| calibrated.sources.iter().any(|key| key == source))
+    }
+
+    /// Layers of the target; none of a wall or a constant pressure.
+    pub fn layers(&self) -> &[Plate] {
+        match &self.target {
+            TargetBody::Layers { layers, .. } => layers,
+            _ => &[],
+        }
+    }
+
+    /// Whether a body is not at the temperature that its material was measured at.
+    pub fn is_heated(&self) -> bool {
+        let rod = &self.projectile;
+        is_heated(rod.temperature, &rod.material) || self.has_heated_target()
+    }
+
+    /// Whether a layer of the target is not at the temperature that its material was measured at.
+    pub fn has_heated_target(&self) -> bool {
+        let mut layers = self.layers().iter();
+        layers.any(|layer| is_heated(layer.temperature, &layer.material))
     }
 
     /// Boundary condition of the target's rear face, where it has one.

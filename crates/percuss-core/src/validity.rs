@@ -51,7 +51,7 @@ pub struct ValidityDomain {
     pub predicts: &'static [BandQuantity],
     /// Noses with which it takes oblique impact; none when it takes normal impact alone.
     pub oblique_noses: &'static [NoseKind],
-    /// Whether it follows a projectile that is not at the temperature its material was measured at.
+    /// Whether it follows a projectile or a target that is not at the temperature its material was measured at.
     pub start_temperature: bool,
     /// Whether it takes gaps between layers, bonded interfaces and layers of different diameter.
     pub separate_layers: bool,
@@ -240,8 +240,8 @@ impl ValidityDomain {
                 "; it does not model the rear face of a plate"
             }
         );
-        let temperature =
-            (!self.start_temperature).then(|| "the projectile has room temperature".to_owned());
+        let temperature = (!self.start_temperature)
+            .then(|| "projectile and target have room temperature".to_owned());
         let predicts = format!(
             "it gives {}",
             conjunction(self.predicts.iter().map(|quantity| quantity.describe()))

@@ -143,6 +143,14 @@ def test_values_are_read_and_set() -> None:
     assert percuss.run(case, history=False).outcome
 
 
+def test_a_nose_is_given_by_any_of_its_dimensions() -> None:
+    case = percuss.Case("shot", projectile={**COPPER, "nose": {"cone": {"angle": "60 deg"}}}, target=PLATE)
+    case.projectile.nose.cone.angle = "90 deg"
+    assert tomllib.loads(case.text)["projectile"]["nose"] == {"cone": {"angle": "90 deg"}}
+    with pytest.raises(percuss.CaseError, match="given where just one can be"):
+        case.projectile.nose = {"cone": {"angle": "90 deg", "half_angle": "45 deg"}}
+
+
 def test_what_is_set_is_checked_at_once_and_refused_without_a_trace() -> None:
     case = percuss.Case("shot", projectile=COPPER, target=PLATE)
     before = case.text

@@ -125,6 +125,7 @@ mod tests {
             part,
             initial_position,
             position: initial_position,
+            displacement: 0.0,
             length: 1.0,
             stress,
             strain: 0.0,

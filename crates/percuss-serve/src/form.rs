@@ -48,6 +48,8 @@ pub(crate) struct Field {
     common: bool,
     /// Whether it stands within one of several forms of a value, and so is there with that form only.
     nested: bool,
+    /// Whether it is such a form itself: others stand instead of it.
+    alternative: bool,
     /// Range of its slider in SI units.
     slider: Option<(f64, f64)>,
 }
@@ -89,7 +91,7 @@ pub(crate) fn fields() -> Vec<Field> {
     let mut fields = Vec::new();
     for (name, property) in object(&schema["properties"]) {
         if !TEXT_ONLY.contains(&name.as_str()) {
-            add(&schema, name, property, 0, false, &mut fields);
+            add(&schema, name, property, 0, [false; 2], &mut fields);
         }
     }
     // Sorting keeps the order of fields that are alike.
@@ -161,7 +163,7 @@ fn add(
     key: &str,
     property: &Value,
     depth: usize,
-    nested: bool,
+    [nested, alternative]: [bool; 2],
     fields: &mut Vec<Field>,
 ) {
     let (_, definition) = resolve(schema, property);
@@ -169,14 +171,22 @@ fn add(
     if tables && depth < DEPTH {
         for (name, inner) in object(&definition["properties"]) {
             let inner_key = format!("{key}.{name}");
-            add(schema, &inner_key, inner, depth + 1, nested, fields);
+            add(
+                schema,
+                &inner_key,
+                inner,
+                depth + 1,
+                [nested, false],
+                fields,
+            );
         }
         return;
     }
     if definition["type"] == "array" {
         let (_, entry) = resolve(schema, &definition["items"]);
         if object(&entry["properties"]).next().is_some() && depth < DEPTH {
-            add(schema, &format!("{key}.*"), entry, depth + 1, true, fields);
+            let flags = [true, false];
+            add(schema, &format!("{key}.*"), entry, depth + 1, flags, fields);
         }
         return;
     }
@@ -189,6 +199,7 @@ fn add(
         kind: kind(schema, key, property),
         common: common.is_some(),
         nested,
+        alternative,
         slider: common.and_then(|(_, range)| *range),
     });
     // Numbers within one of several forms of a value, such as the length of a cone.
@@ -196,7 +207,7 @@ fn add(
         for (name, inner) in object(&variant["properties"]) {
             let inner_key = format!("{key}.{name}");
             if depth < DEPTH {
-                add(schema, &inner_key, inner, depth + 1, true, fields);
+                add(schema, &inner_key, inner, depth + 1, [true; 2], fields);
             }
         }
     }
@@ -312,17 +323,26 @@ fn choices(schema: &Value, definition: &Value) -> Vec<String> {
     }
 }
 
-/// A table with what has to be in it; every such number is a ratio or a shape factor, for which 1 is as good a start as any.
+/// A value to start with: a quantity is the example of the schema, and a table has what has to be in it. Plain numbers in such tables are
+/// ratios or shape factors, for which 1 is as good a start as any.
 fn example(schema: &Value, property: &Value) -> String {
-    let (_, definition) = resolve(schema, property);
-    let required = definition["required"].as_array().into_iter().flatten();
-    let numbers: Vec<String> = required
+    let (name, definition) = resolve(schema, property);
+    if let (Some(_), Some(quantity)) = (unit_records(name), definition["examples"][0].as_str()) {
+        return format!("\"{quantity}\"");
+    }
+    if definition["type"] == "number" {
+        return "1.0".to_owned();
+    }
+    // Of several forms the first.
+    let form = definition["oneOf"].get(0).unwrap_or(definition);
+    let required = form["required"].as_array().into_iter().flatten();
+    let values: Vec<String> = required
         .filter_map(Value::as_str)
-        .map(|name| format!("{name} = 1.0"))
+        .map(|name| format!("{name} = {}", example(schema, &form["properties"][name])))
         .collect();
-    match numbers.is_empty() {
+    match values.is_empty() {
         true => "{}".to_owned(),
-        false => format!("{{ {} }}", numbers.join(", ")),
+        false => format!("{{ {} }}", values.join(", ")),
     }
 }
 

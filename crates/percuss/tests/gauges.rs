@@ -123,6 +123,77 @@ fn a_gauge_moves_with_the_material_and_ends_with_its_element() {
 }
 
 #[test]
+fn a_fixed_gauge_stays_where_it_is() {
+    let gauges_of = |model: &str, options: &str| {
+        let (head, tail) = BARS.split_once("    [[gauges]]").unwrap();
+        let (_, material) = tail.split_once("    [materials.bar]").unwrap();
+        let text = format!(
+            "{head}gauges = [{{ position = '-49.95 mm', fixed = true }}, {{ position = '50 mm', fixed = true }}, {{ position = '50 mm', name = 'moves' }}]\n\
+             [materials.bar]{material}\n{options}"
+        );
+        gauges(model, &text)
+    };
+    let column = "[chain]\ntarget_resistance = 'column'\nborder_shear = 0.0\nconstraint_factor = 1.0\n\
+                  projectile_elements = 100\ntarget_elements = 200\nend_time = '15 us'";
+    let rod = "[fdm]\nborder_shear = 0.0\nprojectile_elements = 300\ntarget_elements = 600\nend_time = '15 us'";
+    for (model, options) in [("chain", column), ("fdm", rod)] {
+        let found = gauges_of(model, options);
+        let [left, fixed, moves] = found.as_slice() else {
+            panic!("{found:?}");
+        };
+        // The tail of the rod leaves the place 0.05 mm ahead of it after 5 us.
+        assert_eq!(at(left, 3e-6).velocity, 10.0, "{model}");
+        assert!(at(left, 7e-6).velocity.is_nan(), "{model}");
+        assert!(fixed.states.iter().all(|state| state.position == 50e-3));
+        // The material that the wave moves passes the place; far from its front both have its stress.
+        let (here, there) = (at(fixed, 14e-6), at(moves, 14e-6));
+        assert!(
+            (here.stress / there.stress - 1.0).abs() < 0.02,
+            "{model}: {here:?} {there:?}"
+        );
+        assert!(here.initial_position < 50e-3 - 1e-5, "{model}: {here:?}");
+        let expected = 5.0 * 4e-6;
+        assert!(
+            (there.displacement / expected - 1.0).abs() < 0.1,
+            "{model}: {there:?}"
+        );
+        assert!(
+            (there.position - 50e-3 - there.displacement).abs() < 1e-12,
+            "{model}"
+        );
+        assert_eq!(at(moves, 5e-6).displacement, 0.0, "{model}");
+    }
+}
+
+#[test]
+fn a_fixed_gauge_of_material_points_is_passed_by_the_projectile() {
+    let text = r#"
+        projectile = { material = "copper", length = "12 mm", diameter = "4 mm", impact_velocity = "900 m/s" }
+        target = { material = "aluminium-2024-t351", thickness = "20 mm" }
+        axi = { cells_per_radius = 3, end_time = "10 us" }
+        gauges = [{ position = "1 mm", fixed = true }, { position = "-11 mm", fixed = true }, { position = "-6 mm" }]
+        "#;
+    let gauges = gauges("axi", text);
+    let [struck, behind, rod] = gauges.as_slice() else {
+        panic!("{gauges:?}");
+    };
+    let parts = |gauge: &GaugeHistory| {
+        [
+            gauge.states[0].part,
+            gauge.states[gauge.states.len() - 1].part,
+        ]
+    };
+    // The crater floor passes 1 mm, and the projectile follows.
+    assert_eq!(parts(struck), [1, 0]);
+    assert!(struck.states.iter().all(|state| state.position == 1e-3));
+    // Nothing is left where the tail was.
+    assert!(behind.states[0].velocity > 890.0);
+    assert!(behind.states.last().unwrap().velocity.is_nan());
+    let last = rod.states.last().unwrap();
+    assert!((last.displacement - (last.position + 6e-3)).abs() < 1e-15 && last.displacement > 3e-3);
+}
+
+#[test]
 fn a_gauge_outside_the_bodies_is_refused() {
     for (gauge, key, words) in [
         (

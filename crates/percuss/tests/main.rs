@@ -23,6 +23,7 @@ mod fdm_planar;
 mod fdm_rod;
 mod gauges;
 mod hot_rod;
+mod hot_target;
 mod invariants;
 mod lammps;
 mod layers;

@@ -38,10 +38,18 @@ pub(super) fn help_for_key(
     help: &str,
 ) -> Option<String> {
     if key == NOSE || key.starts_with("projectile.nose.") {
+        // A value of a known dimension, such as an angle without its unit, has its own help.
+        let is_of_choice = ["unknown variant", "wanted ", "invalid type: ", "expected "]
+            .iter()
+            .any(|start| message.starts_with(start));
+        if !is_of_choice {
+            return None;
+        }
         let near = help.split_once("? ").map_or("", |(near, _)| near);
-        let near = match near.starts_with("did you mean") {
-            true => format!("{near}? "),
-            false => String::new(),
+        let near = match near {
+            near if near.starts_with("did you mean") => format!("{near}? "),
+            _ if is_several(message) => "keep one of them: ".to_owned(),
+            _ => String::new(),
         };
         return Some(format!("{near}{NOSES}"));
     }
@@ -71,8 +79,8 @@ pub(super) fn help_for_key(
 /// Key of the shape of a nose.
 const NOSE: &str = "projectile.nose";
 /// How the shapes of a nose are written.
-const NOSES: &str = "write projectile.nose as \"flat\", \"hemisphere\", { cone = { length_to_diameter = 0.866 } } for a half angle of \
-                     30 deg, which is 1/(2 tan 30 deg), or { ogive = { crh = 3 } }";
+const NOSES: &str = "write projectile.nose as \"flat\", \"hemisphere\", { cone = { angle = \"60 deg\" } } or { ogive = { crh = 3 } }; \
+                     a cone takes angle (from side to side), half_angle or length_to_diameter, an ogive crh, radius (of its arc) or length";
 
 /// How a strength law is written, with the constants of the commonest one.
 const STRENGTH: &str = "name the law: strength.LAW = { PARAMETER = VALUE }. Johnson\u{2013}Cook with its A, B, n, C and m is \
@@ -106,8 +114,7 @@ fn help_for_strength(key: &str, names: &[String], message: &str) -> Option<Strin
         return message.contains("`strength`").then(|| STRENGTH.to_owned());
     }
     let is_constant = |name: &String| LAW_KEYS.contains(&name.as_str());
-    let several =
-        message.starts_with("wanted exactly 1 element, more") && names.iter().any(is_constant);
+    let several = is_several(message) && names.iter().any(is_constant);
     let no_law = message.starts_with("unknown variant") && is_law_key;
     let is_strength = last == "strength" || table.ends_with("strength");
     (is_strength && (several || no_law)).then(|| STRENGTH.to_owned())
@@ -190,14 +197,29 @@ fn missing(message: &str) -> Option<Reworded> {
     })
 }
 
-/// Message and help for a table that lacks several keys.
-pub(super) fn several_missing(names: &[String]) -> (String, String) {
+/// Whether a message is about several names of a choice in one table.
+pub(super) fn is_several(message: &str) -> bool {
+    message.starts_with("wanted exactly 1 element, more")
+}
+
+/// Message for a table with several names of a choice.
+pub(super) fn several_given(names: &[String]) -> String {
+    format!("{} are given where just one can be", listed(names))
+}
+
+/// Names in a sentence.
+fn listed(names: &[String]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    let listed = match quoted.split_last() {
+    match quoted.split_last() {
         Some((last, [])) => last.clone(),
         Some((last, others)) => format!("{} and {last}", others.join(", ")),
         None => String::new(),
-    };
+    }
+}
+
+/// Message and help for a table that lacks several keys.
+pub(super) fn several_missing(names: &[String]) -> (String, String) {
+    let listed = listed(names);
     let examples: Vec<String> = names
         .iter()
         .filter_map(|name| EXAMPLES.iter().find(|(key, _)| key == name))

@@ -17,7 +17,7 @@ pub use text_file::MAX_FILE_BYTES;
 pub use {error_messages::reword_toml_error, renamed::Renamed, text_file::read_text};
 
 use self::{
-    error_messages::{Reworded, help_for_key, several_missing},
+    error_messages::{Reworded, help_for_key, is_several, several_given, several_missing},
     text_file::case_name,
 };
 use crate::{
@@ -159,6 +159,9 @@ impl Document {
             if missing.len() > 1 {
                 (message, help) = several_missing(&missing);
             }
+        }
+        if is_several(error.message()) && names.len() > 1 {
+            message = several_given(&names);
         }
         if let Some(unknown) = repair::unknown_choice(&self.text, &key, &names, again, error) {
             message = unknown.message;

@@ -4,7 +4,7 @@ use toml::{Table, Value, de::DeTable};
 
 use super::{
     Reader,
-    error_messages::{Reworded, reword_toml_error},
+    error_messages::{Reworded, is_several, reword_toml_error},
     key_at,
 };
 use crate::units::one_of_each;
@@ -63,10 +63,7 @@ pub(super) fn unknown_choice(
     again: &Reader<'_>,
     error: &toml::de::Error,
 ) -> Option<Reworded> {
-    if !error
-        .message()
-        .starts_with("wanted exactly 1 element, more")
-    {
+    if !is_several(error.message()) {
         return None;
     }
     let root = short(text)?;

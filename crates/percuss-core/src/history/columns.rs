@@ -105,6 +105,7 @@ pub static ELEMENT_COLUMNS: &[HistoryColumn<ElementState>] = columns! { ElementS
     "part" NONE Size part, "Part: 0 is the projectile, 1 the first layer of the target.";
     "initial_position" MM Number initial_position, "Initial position of the element's middle below the original face.";
     "position" MM Number position, "Current position of the element's middle below the original face.";
+    "displacement" MM Number displacement, "Displacement of the material since the start; not a number where cells stand for elements, other than at gauges.";
     "length" MM Number length, "Current length.";
     "stress" MPA Number stress, "Axial stress, compression positive.";
     "strain" NONE Number strain, "Axial strain, compression positive.";

@@ -15,7 +15,12 @@ const PANELS: u32 = 2000;
 /// `2Y/3`, and the strength law beyond it, slow and at room temperature. With constant flow stress it is
 /// `(2Y/3)(1 + ln(2E/3Y))` up to terms of the order of Y/E.
 pub fn cavity_expansion_pressure(material: &Material) -> Option<f64> {
-    remembered_pressure(material, 1.5)
+    cavity_expansion_pressure_at(material, material.room_temperature.si())
+}
+
+/// The same in a body at a temperature [K].
+pub fn cavity_expansion_pressure_at(material: &Material, temperature: f64) -> Option<f64> {
+    remembered_pressure(material, 1.5, temperature)
 }
 
 /// Pressure that expands a long cylindrical cavity from nothing, slowly, in plane strain, in an infinite incompressible body [Pa]
@@ -26,11 +31,11 @@ pub fn cavity_expansion_pressure(material: &Material) -> Option<f64> {
 /// `(Y/√3)(1 + ln(E/(√3 Y)))` up to terms of the order of Y/E, and for `σ = Y (Eε/Y)ⁿ` it is
 /// `(Y/√3){1 + [E/(√3 Y)]ⁿ ∫₀^{1−√3Y/E} (−ln x)ⁿ/(1−x) dx}`.
 pub fn cylindrical_cavity_pressure(material: &Material) -> Option<f64> {
-    remembered_pressure(material, 3.0_f64.sqrt())
+    remembered_pressure(material, 3.0_f64.sqrt(), material.room_temperature.si())
 }
 
-/// An integral: material, exponent and value.
-type Known = (Material, f64, Option<f64>);
+/// An integral: material, exponent and temperature, and value.
+type Known = (Material, [f64; 2], Option<f64>);
 
 /// Integrals that are remembered: those of the materials of published tests.
 const MOST_KNOWN: usize = 64;
@@ -42,14 +47,15 @@ thread_local! {
 
 /// [`expansion_pressure`], remembered: runs of a sweep mostly have the same target, published tests have a few dozen, and the integral takes
 /// as long as a third of a run.
-fn remembered_pressure(material: &Material, exponent: f64) -> Option<f64> {
+fn remembered_pressure(material: &Material, exponent: f64, temperature: f64) -> Option<f64> {
+    let power = [exponent, temperature];
     KNOWN.with_borrow_mut(|known| {
-        let is_it = |(of, power, _): &Known| *power == exponent && of == material;
+        let is_it = |(of, same, _): &Known| *same == power && of == material;
         let place = known.iter().position(is_it);
         let entry = place.and_then(|place| known.remove(place));
         let entry = entry.unwrap_or_else(|| {
-            let pressure = expansion_pressure(material, exponent);
-            (material.clone(), exponent, pressure)
+            let pressure = expansion_pressure(material, exponent, temperature);
+            (material.clone(), power, pressure)
         });
         let pressure = entry.2;
         known.push_front(entry);
@@ -59,16 +65,16 @@ fn remembered_pressure(material: &Material, exponent: f64) -> Option<f64> {
 }
 
 /// `∫₀^∞ σ(ε)/(e^{gε} − 1) dε`: g is 3/2 for a sphere and √3 for a cylinder.
-fn expansion_pressure(material: &Material, exponent: f64) -> Option<f64> {
+fn expansion_pressure(material: &Material, exponent: f64, temperature: f64) -> Option<f64> {
     let law = material.strength.law();
-    let yield_stress = law.initial_yield_stress(material)?;
+    let yield_stress = material.yield_stress_at(temperature)?;
     let prepared = law.prepare(material, 1.0);
     let yield_strain = yield_stress / material.youngs_modulus.si();
     let stress = |strain: f64| {
         let state = FlowState {
             plastic_strain: strain - yield_strain,
             strain_rate: 0.0,
-            temperature: material.room_temperature.si(),
+            temperature,
             pressure: 0.0,
         };
         prepared.flow_stress(&state).stress
@@ -115,9 +121,10 @@ mod tests {
         for metal in metals.iter().chain(&metals) {
             for _ in 0..2 {
                 let sphere = cavity_expansion_pressure(metal);
-                assert_eq!(sphere, expansion_pressure(metal, 1.5));
+                let room = metal.room_temperature.si();
+                assert_eq!(sphere, expansion_pressure(metal, 1.5, room));
                 let cylinder = cylindrical_cavity_pressure(metal);
-                assert_eq!(cylinder, expansion_pressure(metal, 3.0_f64.sqrt()));
+                assert_eq!(cylinder, expansion_pressure(metal, 3.0_f64.sqrt(), room));
                 assert!(sphere > cylinder);
             }
         }

@@ -30,7 +30,9 @@ use crate::units::{Density, Pressure, SpecificHeat, StrainRate, Temperature};
 
 pub use brittle::Brittle;
 pub use calibrated::Calibrated;
-pub use cavity::{cavity_expansion_pressure, cylindrical_cavity_pressure};
+pub use cavity::{
+    cavity_expansion_pressure, cavity_expansion_pressure_at, cylindrical_cavity_pressure,
+};
 pub use damage::{Damage, DamageState, PreparedDamage};
 pub use equation_of_state::EquationOfState;
 pub use failure::*;
@@ -192,15 +194,28 @@ impl Material {
 
     /// Flow stress at a plastic strain, slow and at room temperature [Pa]; `None` for a law that never flows.
     pub fn flow_stress(&self, plastic_strain: f64) -> Option<f64> {
+        self.flow_stress_at(plastic_strain, self.room_temperature.si())
+    }
+
+    /// The same at a temperature [K].
+    pub fn flow_stress_at(&self, plastic_strain: f64, temperature: f64) -> Option<f64> {
         self.strength.law().initial_yield_stress(self)?;
         let state = FlowState {
             plastic_strain,
             strain_rate: 0.0,
-            temperature: self.room_temperature.si(),
+            temperature,
             pressure: 0.0,
         };
         let prepared = self.strength.law().prepare(self, 1.0);
         Some(prepared.flow_stress(&state).stress)
+    }
+
+    /// Stress at which slow flow starts at a temperature [K] [Pa]; `None` for a law that never flows.
+    pub fn yield_stress_at(&self, temperature: f64) -> Option<f64> {
+        match temperature == self.room_temperature.si() {
+            true => self.strength.law().initial_yield_stress(self),
+            false => self.flow_stress_at(0.0, temperature),
+        }
     }
 
     /// Shear modulus [Pa].

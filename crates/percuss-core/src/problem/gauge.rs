@@ -1,4 +1,4 @@
-//! Gauges: points of the material at which a run keeps a time history.
+//! Gauges: points of the material, or places, at which a run keeps a time history.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -11,7 +11,7 @@ use crate::{
 /// Most gauges of a case.
 const MOST: usize = 64;
 
-/// A point of the material on the axis, which moves with it.
+/// A point of the material on the axis, which moves with it, or a place there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Gauge {
@@ -20,6 +20,9 @@ pub struct Gauge {
     pub name: Option<String>,
     /// Position before the impact, below the struck face [m]; negative in the projectile.
     pub position: Length,
+    /// `true` for a place that stays where it is, whatever material is there; a point of the material when not given.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub fixed: bool,
 }
 
 impl Gauge {

@@ -4,6 +4,7 @@ mod experiment;
 mod extensions;
 mod gauge;
 mod measured_table;
+mod nose;
 mod projectile;
 mod target;
 
@@ -11,5 +12,6 @@ pub use experiment::{Experiment, SourceKeys, Uncertainty};
 pub use extensions::Extensions;
 pub use gauge::Gauge;
 pub use measured_table::{CurveUncertainty, MeasuredTable};
-pub use projectile::{Nose, Projectile};
+pub use nose::{ConeGeometry, Nose, NoseGeometry, OgiveGeometry};
+pub use projectile::Projectile;
 pub use target::{EdgeSupport, Layer, LayerInterface, RearFaceCondition, Target, Thickness};

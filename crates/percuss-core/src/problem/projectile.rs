@@ -3,6 +3,7 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::{Nose, NoseGeometry};
 use crate::{
     check::{Check, limits},
     units::{Angle, Length, Mass, Quantity, Temperature, Velocity},
@@ -24,78 +25,18 @@ pub struct Projectile {
     pub diameter: Length,
     /// Shape of the nose.
     #[serde(default)]
-    pub nose: Nose,
+    pub nose: NoseGeometry,
     /// Impact velocity [m/s].
     pub impact_velocity: Velocity,
     /// Angle between the path and the normal of the struck face [rad]; 0, normal impact, when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub obliquity: Option<Angle>,
+    /// Angle between the axis and the path [rad]; only 0, which is the default: no model computes yaw.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yaw: Option<Angle>,
     /// Temperature before the impact [K]; `room_temperature` of the material when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub temperature: Option<Temperature>,
-}
-
-/// Shape of a projectile's nose.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Nose {
-    /// Flat end.
-    #[default]
-    Flat,
-    /// Hemisphere.
-    Hemisphere,
-    /// Cone.
-    Cone {
-        /// Length of the cone in shank diameters.
-        length_to_diameter: f64,
-    },
-    /// Tangent ogive.
-    Ogive {
-        /// Caliber-radius-head: radius of the ogive's arc in shank diameters.
-        crh: f64,
-    },
-}
-
-impl Nose {
-    /// Length of the nose [m] on a shank of this diameter [m].
-    pub fn length(self, diameter: f64) -> f64 {
-        match self {
-            Self::Flat => 0.0,
-            Self::Hemisphere => diameter / 2.0,
-            Self::Cone { length_to_diameter } => length_to_diameter * diameter,
-            Self::Ogive { crh } => diameter * (crh - 0.25).sqrt(),
-        }
-    }
-
-    /// Volume of the nose [m3] on a shank of this diameter [m].
-    pub fn volume(self, diameter: f64) -> f64 {
-        let radius = diameter / 2.0;
-        match self {
-            Self::Flat => 0.0,
-            Self::Hemisphere => 2.0 / 3.0 * PI * radius.powi(3),
-            Self::Cone { .. } => PI / 3.0 * radius.powi(2) * self.length(diameter),
-            Self::Ogive { crh } => {
-                // r(x) = sqrt(s² − x²) − (s − a): solid of revolution of a circular arc of radius s = 2 a ψ.
-                let s = crh * diameter;
-                let length = self.length(diameter);
-                let offset = s - radius;
-                let arc = s * s * (length / s).asin() / 2.0
-                    + length * (s * s - length * length).max(0.0).sqrt() / 2.0;
-                PI * (s * s * length - length.powi(3) / 3.0 + offset * offset * length
-                    - 2.0 * offset * arc)
-            }
-        }
-    }
-
-    /// Name as the file has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Flat => "flat",
-            Self::Hemisphere => "hemisphere",
-            Self::Cone { .. } => "cone",
-            Self::Ogive { .. } => "ogive",
-        }
-    }
 }
 
 impl Projectile {
@@ -131,16 +72,18 @@ impl Projectile {
             length: None,
             mass: None,
             diameter,
-            nose: Nose::Flat,
+            nose: NoseGeometry::Flat,
             impact_velocity,
             obliquity: None,
+            yaw: None,
             temperature: None,
         }
     }
 
     /// The same with a nose.
     #[must_use]
-    pub fn with_nose(self, nose: Nose) -> Self {
+    pub fn with_nose(self, nose: impl Into<NoseGeometry>) -> Self {
+        let nose = nose.into();
         Self { nose, ..self }
     }
 
@@ -167,11 +110,17 @@ impl Projectile {
         self.obliquity.map_or(0.0, Quantity::si)
     }
 
+    /// Shape of the nose in diameters of the shank.
+    pub fn nose(&self) -> Nose {
+        self.nose.on_shank(self.diameter.si())
+    }
+
     /// Length over all [m] and mass [kg], one from the other; `None` when not just one of them is given.
     pub fn length_and_mass(&self, density: f64) -> Option<(f64, f64)> {
         let diameter = self.diameter.si();
         let area = PI * diameter * diameter / 4.0;
-        let (nose_length, nose_volume) = (self.nose.length(diameter), self.nose.volume(diameter));
+        let nose = self.nose();
+        let (nose_length, nose_volume) = (nose.length(diameter), nose.volume(diameter));
         match (self.length, self.mass) {
             (Some(length), None) => {
                 let volume = nose_volume + area * (length.si() - nose_length);
@@ -204,6 +153,13 @@ impl Projectile {
                 ),
             );
         }
+        if let Some(yaw) = self.yaw.filter(|yaw| yaw.si() != 0.0) {
+            check.fail(
+                "yaw",
+                format!("no model computes yaw, and this is {yaw}: every model takes a projectile that flies along its axis"),
+                "allowed: 0 deg; an impact at an angle to the struck face is `obliquity`, which the model `particles` computes",
+            );
+        }
         if let Some(temperature) = self.temperature {
             check.quantity("temperature", temperature, limits::TEMPERATURE);
         }
@@ -221,17 +177,8 @@ impl Projectile {
                 "with the material's density one follows from the other: remove one",
             ),
         }
-        match self.nose {
-            Nose::Cone { length_to_diameter } => check.number(
-                "nose.cone.length_to_diameter",
-                length_to_diameter,
-                limits::CONE_RATIO,
-            ),
-            Nose::Ogive { crh } => {
-                check.number("nose.ogive.crh", crh, limits::CALIBER_RADIUS_HEAD);
-            }
-            Nose::Flat | Nose::Hemisphere => {}
-        }
+        self.nose
+            .check(&mut check.within("nose"), self.diameter.si());
     }
 }
 
@@ -252,33 +199,4 @@ fn check_impact_velocity(velocity: Velocity, check: &mut Check<'_>) {
             Velocity::new(moving.max)
         ),
     );
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_ogive_of_half_a_caliber_is_a_hemisphere() {
-        let ogive = Nose::Ogive { crh: 0.5 };
-        let diameter = 0.02;
-        assert!((ogive.length(diameter) - Nose::Hemisphere.length(diameter)).abs() < 1e-12);
-        let ratio = ogive.volume(diameter) / Nose::Hemisphere.volume(diameter);
-        assert!((ratio - 1.0).abs() < 1e-12, "{ratio}");
-    }
-
-    #[test]
-    fn the_volume_of_an_ogive_is_its_integral() {
-        let (nose, diameter) = (Nose::Ogive { crh: 3.0 }, 0.02);
-        let (s, length) = (3.0 * diameter, nose.length(diameter));
-        let n = 20_000;
-        let sum: f64 = (0..n)
-            .map(|i| {
-                let x = length * (i as f64 + 0.5) / n as f64;
-                let r = (s * s - x * x).sqrt() - (s - diameter / 2.0);
-                PI * r * r * length / n as f64
-            })
-            .sum();
-        assert!((nose.volume(diameter) / sum - 1.0).abs() < 1e-7);
-    }
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::{
     check::{Check, limits},
-    units::{Length, Pressure},
+    units::{Length, Pressure, Temperature},
 };
 
 /// What is struck: one plate, several layers, a rigid wall or a constant pressure.
@@ -18,6 +18,9 @@ pub struct Target {
     /// Thickness of a target of one layer, or `"semi-infinite"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<Thickness>,
+    /// Temperature before the impact [K], of all layers without their own; `room_temperature` of the material when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<Temperature>,
     /// Layers from the struck face to the back, instead of `material` and `thickness`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub layers: Vec<Layer>,
@@ -58,6 +61,9 @@ pub struct Layer {
     /// Diameter of the column that is modelled [m]; `column_diameter` of the target when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column_diameter: Option<Length>,
+    /// Temperature before the impact [K]; `temperature` of the target when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<Temperature>,
 }
 
 /// How a layer is joined to the one before it.
@@ -228,6 +234,15 @@ impl Target {
             ..self
         }
     }
+
+    /// The same at a temperature before the impact.
+    #[must_use]
+    pub fn with_temperature(self, temperature: Temperature) -> Self {
+        Self {
+            temperature: Some(temperature),
+            ..self
+        }
+    }
 }
 
 impl Layer {
@@ -239,6 +254,16 @@ impl Layer {
             gap: None,
             interface: None,
             column_diameter: None,
+            temperature: None,
+        }
+    }
+
+    /// The same at a temperature before the impact.
+    #[must_use]
+    pub fn with_temperature(self, temperature: Temperature) -> Self {
+        Self {
+            temperature: Some(temperature),
+            ..self
         }
     }
 
@@ -283,13 +308,7 @@ impl Target {
     pub fn layers_with_keys(&self) -> Vec<(String, Layer)> {
         match (&self.material, self.thickness) {
             (Some(material), Some(thickness)) if self.layers.is_empty() => {
-                let layer = Layer {
-                    material: material.clone(),
-                    thickness,
-                    gap: None,
-                    interface: None,
-                    column_diameter: None,
-                };
+                let layer = Layer::new(material.clone(), thickness);
                 vec![("target".to_owned(), layer)]
             }
             _ => self
@@ -389,6 +408,9 @@ impl Target {
                 Thickness::SemiInfinite => {}
             }
             layer.check_joint(i == 0, &mut check);
+            if let Some(temperature) = layer.temperature {
+                check.quantity("temperature", temperature, limits::TEMPERATURE);
+            }
         }
         if let Some(diameter) = self.column_diameter {
             check.quantity("column_diameter", diameter, limits::DIAMETER);
@@ -417,6 +439,16 @@ impl Target {
             );
         }
         let solid = self.is_solid();
+        if let Some(temperature) = self.temperature {
+            check.quantity("temperature", temperature, limits::TEMPERATURE);
+            if !solid {
+                check.fail(
+                    "temperature",
+                    "a rigid wall or a constant pressure has no temperature",
+                    "remove `temperature`",
+                );
+            }
+        }
         if self.plate_diameter.is_some() && !solid {
             check.fail(
                 "plate_diameter",

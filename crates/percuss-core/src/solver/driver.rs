@@ -81,9 +81,7 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
         Ok(Self {
             scenario,
             limits: solver.limits(),
-            gauges: gauges
-                .map(|place| Gauge::new(place.position, &elements))
-                .collect(),
+            gauges: gauges.map(|place| Gauge::new(place, &elements)).collect(),
             solver,
             monitor: RunMonitor::default(),
             courant,

@@ -1,43 +1,43 @@
-//! Projectiles that are not at the temperature their material was measured at.
+//! Bodies that are not at the temperature their material was measured at.
 
 use super::ValidityDomain;
-use crate::{
-    material::{FlowState, Material},
-    scenario::Scenario,
-    units::Temperature,
-};
+use crate::{material::Material, scenario::Scenario, units::Temperature};
 
-/// Why a model cannot take a projectile at its temperature, if it cannot.
+/// Plastic strain that any impact reaches.
+const REACHED_STRAIN: f64 = 0.1;
+
+/// Why a model cannot take a body at its temperature, if it cannot.
 pub(super) fn reason(validity: &ValidityDomain, scenario: &Scenario) -> Option<String> {
-    let material = &scenario.projectile.material;
+    let rod = &scenario.projectile;
+    let layers = scenario.layers().iter();
+    let layers = layers.map(|layer| ("target", &*layer.material, layer.start_temperature()));
+    std::iter::once(("projectile", &*rod.material, rod.start_temperature()))
+        .chain(layers)
+        .find_map(|(what, material, temperature)| of_body(validity, what, material, temperature))
+}
+
+/// Why a model cannot take a projectile or a layer of the target at its temperature [K], if it cannot.
+fn of_body(
+    validity: &ValidityDomain,
+    what: &str,
+    material: &Material,
+    temperature: f64,
+) -> Option<String> {
     let room = material.room_temperature;
-    let temperature = scenario
-        .projectile
-        .temperature
-        .filter(|temperature| *temperature != room.si())?;
+    if temperature == room.si() {
+        return None;
+    }
     let shown = Temperature::new(temperature);
     if !validity.start_temperature {
         return Some(format!(
-            "it takes a projectile at the temperature of its material's record, {room}, and this one has {shown}"
+            "it takes a {what} at the temperature of its material's record, {room}, and this one has {shown}"
         ));
     }
-    (flow_stress(material, temperature) == flow_stress(material, room.si())).then(|| {
+    let flow_stress = |temperature| material.flow_stress_at(REACHED_STRAIN, temperature);
+    (flow_stress(temperature) == flow_stress(room.si())).then(|| {
         format!(
-            "the strength law of {} does not tell {shown}, the projectile's temperature, from {room}",
+            "the strength law of {} does not tell {shown}, the {what}'s temperature, from {room}",
             material.name
         )
     })
-}
-
-/// Flow stress at a temperature [K] and a strain that any impact reaches [Pa]; `None` for a law that never flows.
-fn flow_stress(material: &Material, temperature: f64) -> Option<f64> {
-    let law = material.strength.law();
-    law.initial_yield_stress(material)?;
-    let state = FlowState {
-        plastic_strain: 0.1,
-        strain_rate: 0.0,
-        temperature,
-        pressure: 0.0,
-    };
-    Some(law.prepare(material, 1.0).flow_stress(&state).stress)
 }

@@ -32,8 +32,8 @@ pub use crate::{
         SmallStrainStiffness, TargetResistanceModel,
     },
     problem::{
-        CurveUncertainty, EdgeSupport, Experiment, Extensions, Gauge, Layer, LayerInterface,
-        MeasuredTable, Nose, Projectile, RearFaceCondition, SourceKeys, Target, Thickness,
-        Uncertainty,
+        ConeGeometry, CurveUncertainty, EdgeSupport, Experiment, Extensions, Gauge, Layer,
+        LayerInterface, MeasuredTable, Nose, NoseGeometry, OgiveGeometry, Projectile,
+        RearFaceCondition, SourceKeys, Target, Thickness, Uncertainty,
     },
 };

@@ -11,7 +11,7 @@ use crate::{
     scenario::{
         Given, Measurement, Plate, PlateEdge, Rod, Scenario, TargetBody, modelled_thickness,
     },
-    units::{Length, Mass, Quantity, Velocity},
+    units::{Length, Mass, Quantity, Temperature, Velocity},
 };
 
 /// Materials of the user that an error lists at most.
@@ -58,7 +58,7 @@ pub(super) fn resolve(
     Some(scenario)
 }
 
-/// Gauges, each of which lies in a body.
+/// Gauges, of which each that moves with the material lies in a body.
 fn gauges(gauges: &[Gauge], scenario: &Scenario, check: &mut Check<'_>) -> Vec<GaugePlace> {
     let behind = -scenario.projectile.length;
     let ahead = match &scenario.target {
@@ -69,12 +69,12 @@ fn gauges(gauges: &[Gauge], scenario: &Scenario, check: &mut Check<'_>) -> Vec<G
         _ => 0.0,
     };
     for (i, gauge) in gauges.iter().enumerate() {
-        if !(behind..=ahead).contains(&gauge.position.si()) {
+        if !gauge.fixed && !(behind..=ahead).contains(&gauge.position.si()) {
             check.fail(
                 &format!("gauges.{i}.position"),
                 format!("{} lies in no body", gauge.position),
                 format!(
-                    "allowed: {} (rear end of the projectile) to {} (end of the modelled target)",
+                    "allowed: {} (rear end of the projectile) to {} (end of the modelled target); `fixed = true` is for places beside them",
                     Length::new(behind),
                     Length::new(ahead)
                 ),
@@ -84,6 +84,7 @@ fn gauges(gauges: &[Gauge], scenario: &Scenario, check: &mut Check<'_>) -> Vec<G
     let place = |(i, gauge): (usize, &Gauge)| GaugePlace {
         name: gauge.name(i),
         position: gauge.position.si(),
+        fixed: gauge.fixed,
     };
     gauges.iter().enumerate().map(place).collect()
 }
@@ -150,7 +151,7 @@ fn resolve_rod(case: &Case, library: &Library, check: &mut Check<'_>) -> Option<
         .projectile
         .length_and_mass(entry.material.density.si())?;
     let diameter = case.projectile.diameter.si();
-    let nose = case.projectile.nose;
+    let nose = case.projectile.nose();
     let given = if case.projectile.length.is_some() {
         "length"
     } else {
@@ -173,14 +174,7 @@ fn resolve_rod(case: &Case, library: &Library, check: &mut Check<'_>) -> Option<
         return None;
     }
     let temperature = case.projectile.temperature;
-    if let (Some(temperature), Some(melting)) = (temperature, entry.material.melting_temperature)
-        && temperature.si() >= melting.si()
-    {
-        check.fail(
-            "projectile.temperature",
-            format!("{temperature} is at or above the melting temperature"),
-            format!("the material `{}` melts at {melting}", entry.id),
-        );
+    if is_molten(temperature, entry, "projectile.temperature", check) {
         return None;
     }
     let derived: (&str, String, bool) = if given == "length" {
@@ -212,6 +206,28 @@ fn resolve_rod(case: &Case, library: &Library, check: &mut Check<'_>) -> Option<
     })
 }
 
+/// Whether a body would start at or above its melting point, which is reported at the key of its temperature.
+fn is_molten(
+    temperature: Option<Temperature>,
+    entry: &MaterialEntry,
+    key: &str,
+    check: &mut Check<'_>,
+) -> bool {
+    let (Some(temperature), Some(melting)) = (temperature, entry.material.melting_temperature)
+    else {
+        return false;
+    };
+    let molten = temperature.si() >= melting.si();
+    if molten {
+        check.fail(
+            key,
+            format!("{temperature} is at or above the melting temperature"),
+            format!("the material `{}` melts at {melting}", entry.id),
+        );
+    }
+    molten
+}
+
 fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Option<TargetBody> {
     let target = &case.target;
     if target.rigid_wall {
@@ -228,6 +244,13 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
         .iter()
         .map(|(key, layer): &(String, Layer)| {
             let entry = look_up(library, &layer.material, key, check)?;
+            let (temperature, table) = match layer.temperature {
+                None => (target.temperature, "target"),
+                own => (own, key.as_str()),
+            };
+            if is_molten(temperature, entry, &format!("{table}.temperature"), check) {
+                return None;
+            }
             Some(Plate {
                 material: entry.material.clone(),
                 material_id: entry.id.clone(),
@@ -238,6 +261,7 @@ fn resolve_target(case: &Case, library: &Library, check: &mut Check<'_>) -> Opti
                 gap: layer.gap.map_or(0.0, Length::si),
                 interface: layer.interface.unwrap_or_default(),
                 column_diameter: layer.column_diameter.map(Length::si),
+                temperature: temperature.map(Quantity::si),
             })
         })
         .collect();

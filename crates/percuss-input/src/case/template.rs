@@ -149,7 +149,9 @@ impl Template {
             let key = &*self.key_of_record(key);
             self.adopt(&mut table, key)
                 .map_err(|diagnostic| vec![diagnostic])?;
-            other_law(&table, key).map_or(Ok(()), |diagnostic| Err(vec![diagnostic]))?;
+            other_law(&table, key)
+                .or_else(|| other_nose(&table, key))
+                .map_or(Ok(()), |diagnostic| Err(vec![diagnostic]))?;
             put(&mut table, key, value.clone()).map_err(|message| {
                 let help = "name a number of the case by the tables that it stands in, such as projectile.impact_velocity";
                 vec![Diagnostic::at(key, message, help)]
@@ -255,6 +257,21 @@ fn other_law(table: &Table, key: &str) -> Option<Diagnostic> {
         constants.join(", ")
     );
     Some(Diagnostic::at(key, message, help))
+}
+
+/// What is wrong with a dimension of the nose that is not the one that the case gives.
+fn other_nose(table: &Table, key: &str) -> Option<Diagnostic> {
+    let varied = key.strip_prefix("projectile.nose.")?;
+    let nose = table.get("projectile")?.get("nose")?.as_table()?;
+    let (shape, dimensions) = nose.iter().next()?;
+    let dimension = dimensions.as_table()?.keys().next()?;
+    let given = format!("{shape}.{dimension}");
+    (given != varied).then(|| {
+        let message = format!("the case gives its nose by `{given}`, not by `{varied}`");
+        let help =
+            format!("name projectile.nose.{given}, or give the nose of the case by `{varied}`");
+        Diagnostic::at(key, message, help)
+    })
 }
 
 /// Puts a value under a dotted key; tables on the way are made where a default stands in for them.

@@ -55,6 +55,88 @@ fn an_error_knows_whether_it_is_of_a_material() {
     assert!(error.file.ends_with("mine.toml"), "{}", error.file);
 }
 
+/// The short case with a nose.
+fn with_nose(nose: &str) -> String {
+    SHORT.replace("diameter =", &format!("nose = {nose}, diameter ="))
+}
+
+#[test]
+fn a_nose_is_given_by_any_of_its_dimensions() {
+    let scenario =
+        |nose: &str| load_str("nose", &with_nose(nose)).unwrap_or_else(|e| panic!("{nose}: {e}"));
+    for (known, others) in [
+        (
+            "{ cone = { length_to_diameter = 0.8660254037844386 } }",
+            [
+                "{ cone = { angle = '60 deg' } }",
+                "{ cone = { half_angle = '30 deg' } }",
+            ],
+        ),
+        (
+            "{ ogive = { crh = 1.5 } }",
+            [
+                "{ ogive = { radius = '7.2 mm' } }",
+                // 4.8 mm sqrt(1.25)
+                "{ ogive = { length = '5.366563145999495 mm' } }",
+            ],
+        ),
+    ] {
+        let expected = scenario(known).projectile;
+        for nose in others {
+            let found = scenario(nose).projectile;
+            let [length, same] = [&found, &expected].map(|rod| rod.nose.length(rod.diameter));
+            assert!((length / same - 1.0).abs() < 1e-14, "{nose}");
+            assert!((found.mass / expected.mass - 1.0).abs() < 1e-14, "{nose}");
+            // A case keeps the dimension that it was given, and gives the same bits from its own text.
+            let case: Case = Document::new("nose", with_nose(nose)).parse().unwrap();
+            let text = toml::to_string(&case).unwrap();
+            let again: Case = Document::new("nose", text.clone()).parse().unwrap();
+            assert_eq!(again, case, "{text}");
+            assert_eq!(load_str("nose", &text).unwrap().projectile, found, "{text}");
+        }
+    }
+}
+
+#[test]
+fn the_angle_of_a_cone_is_varied() {
+    let template = |nose: &str| Template::of(&Document::new("nose", with_nose(nose))).unwrap();
+    let cone = template("{ cone = { angle = '90 deg' } }");
+    let varied = |template: &Template, key: &str| {
+        template.scenario(&[(key, toml::Value::String("60 deg".to_owned()))])
+    };
+    let found = varied(&cone, "projectile.nose.cone.angle").unwrap();
+    let written = load_str("nose", &with_nose("{ cone = { angle = '60 deg' } }")).unwrap();
+    assert_eq!(found.projectile, written.projectile);
+    // A second dimension beside that of the case would contradict it.
+    let by_length = template("{ cone = { length_to_diameter = 0.5 } }");
+    let refused = varied(&by_length, "projectile.nose.cone.angle").unwrap_err();
+    assert_eq!(refused[0].key, "projectile.nose.cone.angle");
+    assert!(
+        refused[0]
+            .message
+            .contains("`cone.length_to_diameter`, not by `cone.angle`")
+    );
+    assert!(
+        refused[0]
+            .help
+            .contains("projectile.nose.cone.length_to_diameter")
+    );
+    assert!(varied(&cone, "projectile.nose.ogive.radius").is_err());
+}
+
+#[test]
+fn yaw_is_known_and_refused() {
+    let with = |yaw: &str| {
+        load_str(
+            "yaw",
+            &SHORT.replace("diameter =", &format!("yaw = '{yaw}', diameter =")),
+        )
+    };
+    assert_eq!(with("0 deg").unwrap(), load_str("yaw", SHORT).unwrap());
+    let error = with("2 deg").unwrap_err().to_string();
+    assert!(error.contains("no model computes yaw"), "{error}");
+}
+
 #[test]
 fn digits_are_an_index_in_a_list_and_a_key_in_a_table() {
     const LAYERS: &str = "[target]\nlayers = [{ material = '7075', thickness = '10 mm' }, { material = 'copper', thickness = '5 mm' }]\n";

@@ -1,4 +1,5 @@
-//! Entries of a list of values: amounts, or the words and switches that an option of the case can be.
+//! Entries of a list of values: amounts, or the words and switches that an option of the case can be. The key decides which one a
+//! quoted text is: names of materials can be digits.
 
 use std::borrow::Cow;
 
@@ -14,7 +15,7 @@ use crate::units::{is_unit, split_number};
 pub enum ListValue {
     /// A number, which may have a unit.
     QuantityLiteral(QuantityLiteral),
-    /// A text or `true` or `false`, for the case to say whether it can be that.
+    /// A text, which can be a number with a unit, or `true` or `false`.
     Option(Value),
 }
 
@@ -50,13 +51,26 @@ impl de::Visitor<'_> for ListValueVisitor {
     }
 
     fn visit_str<E: de::Error>(self, text: &str) -> Result<ListValue, E> {
-        match is_amount(text.trim()) {
-            true => QuantityLiteralVisitor
-                .visit_str(text)
-                .map(ListValue::QuantityLiteral),
-            false => Ok(ListValue::Option(Value::String(text.to_owned()))),
+        Ok(ListValue::Option(Value::String(text.to_owned())))
+    }
+}
+
+impl ListValue {
+    /// The value of a key: a text that is meant as a number with a unit is one, unless the key takes names. Otherwise what is wrong with
+    /// it and what to do.
+    pub(super) fn of_key(&self, key: &str) -> Result<Self, (String, &'static str)> {
+        match self {
+            Self::Option(Value::String(text)) if !takes_name(key) && is_amount(text.trim()) => {
+                QuantityLiteral::read(text).map(Self::QuantityLiteral)
+            }
+            other => Ok(other.clone()),
         }
     }
+}
+
+/// Whether a key of a case takes the name of a material, which can look like a number: `304`, `4340`.
+fn takes_name(key: &str) -> bool {
+    key == "projectile.material" || key.starts_with("target.") && key.ends_with(".material")
 }
 
 impl Serialize for ListValue {

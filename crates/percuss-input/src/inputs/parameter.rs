@@ -52,22 +52,31 @@ impl Amounts {
         value
     }
 
-    /// Reads a list that is written down value by value.
-    fn entries(&mut self, check: &mut Check<'_>, entries: &[ListValue]) -> Option<Values> {
+    /// Reads a list that is written down value by value, for a key of the case.
+    fn entries(
+        &mut self,
+        check: &mut Check<'_>,
+        of: &str,
+        entries: &[ListValue],
+    ) -> Option<Values> {
         let (mut numbers, mut options) = (Vec::new(), Vec::new());
         for (i, entry) in entries.iter().enumerate() {
             let key = format!("values.{i}");
-            match entry {
-                ListValue::QuantityLiteral(amount) => {
-                    numbers.push(self.sample(check, &key, amount))
+            match entry.of_key(of) {
+                Err((message, help)) => {
+                    check.fail(&key, message, help);
+                    return None;
                 }
-                ListValue::Option(value) if options.contains(value) => {
+                Ok(ListValue::QuantityLiteral(amount)) => {
+                    numbers.push(self.sample(check, &key, &amount))
+                }
+                Ok(ListValue::Option(value)) if options.contains(&value) => {
                     check.fail(&key, format!("{value} is in the list twice"), "remove one");
                     return None;
                 }
-                ListValue::Option(value) => {
+                Ok(ListValue::Option(value)) => {
                     self.samples.push((key.clone(), i as f64));
-                    options.push(value.clone());
+                    options.push(value);
                 }
             }
             if !numbers.is_empty() && !options.is_empty() {
@@ -191,7 +200,7 @@ impl Parameter {
                 check.fail("values", "the list is empty", "give at least one value");
                 return Some(None);
             }
-            return Some(amounts.entries(check, values));
+            return Some(amounts.entries(check, &self.key, values));
         }
         let (kind, steps) = match (&self.linear, &self.log) {
             (Some(steps), _) => ("linear", steps),

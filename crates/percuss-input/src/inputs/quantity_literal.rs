@@ -54,26 +54,30 @@ impl serde::de::Visitor<'_> for QuantityLiteralVisitor {
     }
 
     fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<QuantityLiteral, E> {
-        let bad = |what: &str| {
-            let text = shorten(text);
-            E::custom(format!(
-                "`{text}` {what}\nwrite a number with a unit, such as \"230 m/s\", or without quotes one that has none"
-            ))
-        };
-        match split_number(text.trim()) {
-            Some((value, _)) if !value.is_finite() => Err(bad("is not a finite number")),
-            Some((_, "")) => Err(bad("has no unit")),
-            Some((value, unit)) => Ok(QuantityLiteral {
-                value,
-                unit: unit.to_owned(),
-                whole: false,
-            }),
-            None => Err(bad("is no number")),
-        }
+        QuantityLiteral::read(text)
+            .map_err(|(message, help)| E::custom(format!("{message}\n{help}")))
     }
 }
 
 impl QuantityLiteral {
+    /// The number and the unit of a quoted text; otherwise what is wrong with it and what to do.
+    pub(super) fn read(text: &str) -> Result<Self, (String, &'static str)> {
+        let bad = |what: &str| {
+            let help = "write a number with a unit, such as \"230 m/s\", or without quotes one that has none";
+            Err((format!("`{}` {what}", shorten(text)), help))
+        };
+        match split_number(text.trim()) {
+            Some((value, _)) if !value.is_finite() => bad("is not a finite number"),
+            Some((_, "")) => bad("has no unit"),
+            Some((value, unit)) => Ok(Self {
+                value,
+                unit: unit.to_owned(),
+                whole: false,
+            }),
+            None => bad("is no number"),
+        }
+    }
+
     /// It as a case file has it; a float's text reads back as the same number.
     pub(crate) fn written(value: f64, unit: &str, whole: bool) -> toml::Value {
         if !unit.is_empty() {

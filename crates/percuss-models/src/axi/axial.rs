@@ -116,6 +116,7 @@ fn along_axis(part: usize, body: &Body, mesh: &Mesh) -> Vec<ElementState> {
                 part,
                 initial_position: position,
                 position,
+                displacement: f64::NAN,
                 length: mesh.cell * mesh.row_stretch(at),
                 stress,
                 strain,
@@ -148,6 +149,19 @@ pub(super) fn at_gauge(
     ElementState {
         initial_position: initial,
         position,
+        displacement: position - initial,
         ..state
     }
+}
+
+/// State of the material that is at a place now [m]: of the first body there. Where it was before the impact is not known.
+pub(super) fn at_place(rows: &[ElementState], body: usize, place: f64) -> ElementState {
+    let bodies = rows.chunk_by(|a, b| a.part == b.part);
+    let mut states = bodies.map(|own| at_gauge(own, own[0].part, place, f64::NAN));
+    states
+        .find(|state| !state.velocity.is_nan())
+        .unwrap_or(ElementState {
+            position: place,
+            ..ElementState::gone(body, f64::NAN)
+        })
 }

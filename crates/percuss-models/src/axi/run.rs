@@ -46,7 +46,7 @@ pub(crate) struct Axisymmetric<'a> {
     touches: bool,
     /// Time before the last step [s].
     before: f64,
-    /// Current positions of the gauges [m], which move with the material on the axis.
+    /// Current positions of the gauges [m], which move with the material on the axis unless they are fixed.
     gauges: Vec<f64>,
     /// Body of each gauge.
     gauge_bodies: Vec<usize>,
@@ -121,13 +121,13 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
             true => Vec::new(),
             false => axial::profile(&grid).elements,
         };
-        let gauges = scenario.gauges.iter().map(|place| place.position);
+        let gauges = scenario.gauges.iter();
         Ok(Self {
             gauge_bodies: gauges
                 .clone()
-                .map(|position| Gauge::new(position, &rows).part)
+                .map(|place| Gauge::new(place, &rows).part)
                 .collect(),
-            gauges: gauges.collect(),
+            gauges: gauges.map(|place| place.position).collect(),
             scenario,
             touches: grid.deferred.contact_force > 0.0,
             grid,
@@ -176,7 +176,9 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
 
     fn probe(&mut self, monitor: &RunMonitor) -> Probe {
         let grid = &self.grid;
-        for (gauge, &body) in self.gauges.iter_mut().zip(&self.gauge_bodies) {
+        let places = self.scenario.gauges.iter();
+        let gauges = self.gauges.iter_mut().zip(&self.gauge_bodies).zip(places);
+        for ((gauge, &body), _) in gauges.filter(|(_, place)| !place.fixed) {
             let velocity = crater::axis_velocity(&grid.bodies[body], *gauge, &grid.mesh);
             *gauge += velocity * (grid.time - self.before);
         }
@@ -246,8 +248,9 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
         let rows = axial::profile(&self.grid).elements;
         let places = gauges.iter().zip(&self.gauges).zip(&self.gauge_bodies);
         places
-            .map(|((gauge, &position), &body)| {
-                axial::at_gauge(&rows, body, position, gauge.position)
+            .map(|((gauge, &position), &body)| match gauge.fixed {
+                true => axial::at_place(&rows, body, position),
+                false => axial::at_gauge(&rows, body, position, gauge.position),
             })
             .collect()
     }

@@ -177,9 +177,7 @@ fn projectile(
     control: &mut Control<'_>,
 ) -> Result<Vec<Particle>, Error> {
     let radius = 0.5 * rod.diameter;
-    let temperature = rod
-        .temperature
-        .unwrap_or(rod.material.room_temperature.si());
+    let temperature = rod.start_temperature();
     let filling = Filling {
         law,
         radius,
@@ -255,7 +253,7 @@ pub(super) fn build(
         for (plate, thickness) in layers.iter().zip(&extent.layers) {
             let law = law(&plate.material, scenario);
             let to = from + thickness;
-            let temperature = plate.material.room_temperature.si();
+            let temperature = plate.start_temperature();
             let filling = Filling {
                 law: &law,
                 radius: extent.radius,

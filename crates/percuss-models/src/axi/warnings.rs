@@ -69,7 +69,7 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
     }
     let modelled = extent(run.scenario).map_or(0.0, |extent| extent.layers.iter().sum::<f64>());
     for gauge in &run.scenario.gauges {
-        if gauge.position > modelled {
+        if !gauge.fixed && gauge.position > modelled {
             warnings.push(format!(
                 "`{}` has no values: it lies {:.3} mm deep, and the modelled target ends at {:.3} mm: raise `axi.target_depth`",
                 gauge.name,

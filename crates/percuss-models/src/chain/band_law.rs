@@ -96,7 +96,7 @@ impl BandLaw {
         let sheared = Sheared {
             strength: &*strength,
             heating,
-            temperature: material.room_temperature.si(),
+            temperature: plate.start_temperature(),
             rate_effects: options.rate_effects(),
         };
         // Plug and plate that dish shear for themselves, and the band is what is left between them.
@@ -114,7 +114,7 @@ impl BandLaw {
             spread,
             shear_modulus: material.shear_modulus(),
             heating,
-            start_temperature: material.room_temperature.si(),
+            start_temperature: plate.start_temperature(),
             rate_effects: sheared.rate_effects,
             failure,
             strength,

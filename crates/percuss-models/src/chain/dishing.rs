@@ -52,12 +52,21 @@ impl Dishing {
     pub(super) fn new(
         material: &Material,
         thickness: f64,
+        temperature: f64,
         plug_radius: f64,
         edge: PlateEdge,
         failure: Failure,
         options: &ChainOptions,
     ) -> Self {
-        let mut outer = Self::around_boss(material, thickness, plug_radius, edge, failure, options);
+        let mut outer = Self::around_boss(
+            material,
+            thickness,
+            temperature,
+            plug_radius,
+            edge,
+            failure,
+            options,
+        );
         let mut widths = widths(plug_radius, thickness);
         widths.reverse();
         let (mut circles, mut rings) = rings(&outer.section, 0.0, &widths);
@@ -75,12 +84,13 @@ impl Dishing {
     fn around_boss(
         material: &Material,
         thickness: f64,
+        temperature: f64,
         radius: f64,
         edge: PlateEdge,
         failure: Failure,
         options: &ChainOptions,
     ) -> Self {
-        let section = PlateSection::new(material, thickness, failure, options);
+        let section = PlateSection::new(material, thickness, temperature, failure, options);
         let widths = widths(0.5 * edge.diameter - radius, thickness);
         let (circles, rings) = rings(&section, radius, &widths);
         Self {

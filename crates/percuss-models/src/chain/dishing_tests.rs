@@ -25,7 +25,7 @@ fn plate(strength: &str, thickness: f64, inner_radius: f64, diameter: f64) -> Di
     )
 }
 
-type Build = fn(&Material, f64, f64, PlateEdge, Failure, &ChainOptions) -> Dishing;
+type Build = fn(&Material, f64, f64, f64, PlateEdge, Failure, &ChainOptions) -> Dishing;
 
 fn build(build: Build, strength: &str, thickness: f64, radius: f64, diameter: f64) -> Dishing {
     let edge = PlateEdge {
@@ -36,6 +36,7 @@ fn build(build: Build, strength: &str, thickness: f64, radius: f64, diameter: f6
     build(
         &material,
         thickness,
+        material.room_temperature.si(),
         radius,
         edge,
         Failure::Never,

@@ -60,14 +60,12 @@ pub(super) fn build(scenario: &Scenario) -> State {
         1.0,
         options,
     );
-    if let Some(temperature) = rod.temperature {
-        projectile.start_temperature = temperature;
-    }
+    projectile.start_temperature = rod.start_temperature();
     let mut parts = vec![projectile];
     let mut lengths = vec![rod.length];
     let mut interfaces = vec![Before::TOUCHING];
     let mut cone = None;
-    let mut struck_material = None;
+    let mut struck = None;
     let mut end = BoundaryCondition::Free;
     match &scenario.target {
         TargetBody::Layers {
@@ -82,7 +80,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
                 ErosionCriterion::Tate => parts[0].area,
             };
             let areas: Vec<f64> = layers.iter().map(area).collect();
-            struck_material = layers.first().map(|plate| &plate.material);
+            struck = layers.first();
             cone = cone_and_grading(layers, scenario, parts[0].area);
             let grading = cone.map(|(_, grading)| grading);
             for ((plate, elements), &area) in layers
@@ -93,11 +91,16 @@ pub(super) fn build(scenario: &Scenario) -> State {
                 let material = &plate.material;
                 let factor = match cone {
                     Some(_) => 1.0,
-                    None => constraint_factor(options.constraint_factor(), material),
+                    None => constraint_factor(
+                        options.constraint_factor(),
+                        material,
+                        plate.start_temperature(),
+                    ),
                 };
                 let mut part =
                     Section::new(Role::Target, material, area, elements, factor, options);
-                let flow_stress = material.strength.law().flow_stress_at_unit_strain(material);
+                part.start_temperature = plate.start_temperature();
+                let flow_stress = plate.flow_stress_at_unit_strain();
                 part.friction_per_length =
                     options.border_shear() * PI * diameter(plate) * flow_stress.unwrap_or(0.0);
                 if options.erosion_criterion() == ErosionCriterion::Tate || cone.is_some() {
@@ -152,9 +155,9 @@ pub(super) fn build(scenario: &Scenario) -> State {
         state.add_tip(rod.diameter);
     }
     if options.target_resistance() == TargetResistanceModel::DivergingPenetrable
-        && let Some(material) = struck_material
+        && let Some(plate) = struck
     {
-        state.let_penetrate(material);
+        state.let_penetrate(&plate.material, plate.start_temperature());
     }
     state.constrain_plug(scenario);
     for node in &mut state.nodes[..=rod_elements] {

@@ -13,7 +13,7 @@ use super::{
     part::Section,
     state::{Element, State},
 };
-use crate::material::{Material, cavity_expansion_pressure};
+use crate::material::{Material, cavity_expansion_pressure_at};
 
 /// Added mass of a disc that moves normal to itself, on one side of it, over `ρ a³` \[lamb1932\].
 const ADDED_MASS: f64 = 4.0 / 3.0;
@@ -43,9 +43,9 @@ pub(super) struct Limit {
 }
 
 impl State {
-    /// Lets the tip penetrate a target of a material; one that never yields cannot be penetrated.
-    pub(super) fn let_penetrate(&mut self, material: &Material) {
-        let Some(resistance) = cavity_expansion_pressure(material) else {
+    /// Lets the tip penetrate a target of a material at a temperature [K]; one that never yields cannot be penetrated.
+    pub(super) fn let_penetrate(&mut self, material: &Material, temperature: f64) {
+        let Some(resistance) = cavity_expansion_pressure_at(material, temperature) else {
             return;
         };
         let (area, density) = (self.parts[0].area, material.density.si());

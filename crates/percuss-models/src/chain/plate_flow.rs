@@ -191,7 +191,16 @@ mod tests {
 
     fn section(material: &str) -> PlateSection {
         let material = &Library::built_in().find(material).unwrap().material;
-        PlateSection::new(material, 0.012, Failure::Never, &ChainOptions::default())
+        {
+            let room = material.room_temperature.si();
+            PlateSection::new(
+                material,
+                0.012,
+                room,
+                Failure::Never,
+                &ChainOptions::default(),
+            )
+        }
     }
 
     /// Five rings of different loads and states.

@@ -39,6 +39,7 @@ impl PlateSection {
     pub(super) fn new(
         material: &Material,
         thickness: f64,
+        start_temperature: f64,
         failure: Failure,
         options: &ChainOptions,
     ) -> Self {
@@ -59,7 +60,7 @@ impl PlateSection {
             strength: material.strength.law().prepare(material, 1.0),
             heating: super::part::heating(material, options, 1.0),
             rate_effects: options.rate_effects(),
-            start_temperature: material.room_temperature.si(),
+            start_temperature,
             failure,
         }
     }

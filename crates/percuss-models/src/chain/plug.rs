@@ -110,6 +110,7 @@ impl State {
                 Some(Dishing::new(
                     &layer.material,
                     layer.thickness.unwrap_or(self.back_position),
+                    layer.start_temperature(),
                     0.5 * column_diameter,
                     *edge,
                     law.failure,

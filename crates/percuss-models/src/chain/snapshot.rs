@@ -62,10 +62,12 @@ impl State {
             let part = &self.parts[segment.part];
             for e in segment.elements().step_by(stride) {
                 let node = e + segment.shift;
+                let position = 0.5 * (self.nodes[node].position + self.nodes[node + 1].position);
                 elements.push(ElementState {
                     part: segment.part,
                     initial_position: self.elements[e].initial_position,
-                    position: 0.5 * (self.nodes[node].position + self.nodes[node + 1].position),
+                    position,
+                    displacement: position - self.elements[e].initial_position,
                     length: self.elements[e].length,
                     stress: self.elements[e].spring.stress,
                     strain: self.elements[e].strain,

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::plug;
 use crate::{
-    material::{Material, Strength, cavity_expansion_pressure},
+    material::{Material, Strength, cavity_expansion_pressure_at},
     options::{BorderShearLaw, ErosionCriterion, TargetResistanceModel},
     outcome::{Outcome, RunResult},
     problem::RearFaceCondition,
@@ -211,9 +211,10 @@ const COMPLIANCE_BEHIND: f64 = 0.25;
 
 /// A cone models neither a crater that is deep against its mouth nor a near rear face.
 fn warn_of_cone(scenario: &Scenario, layers: &[Plate], depth: f64, warnings: &mut Vec<String>) {
-    let Some(struck) = layers.first().map(|plate| &plate.material) else {
+    let Some(plate) = layers.first() else {
         return;
     };
+    let struck = &plate.material;
     let resistance = scenario.options.chain.target_resistance();
     let rod = &scenario.projectile;
     let radius = 0.5 * rod.diameter;
@@ -226,7 +227,7 @@ fn warn_of_cone(scenario: &Scenario, layers: &[Plate], depth: f64, warnings: &mu
     }
     if resistance == TargetResistanceModel::DivergingPenetrable
         && let (Some(resistance), Some(strength)) = (
-            cavity_expansion_pressure(struck),
+            cavity_expansion_pressure_at(struck, plate.start_temperature()),
             rod.material.flow_stress(STRENGTH_STRAIN),
         )
         && resistance > strength

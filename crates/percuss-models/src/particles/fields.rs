@@ -73,10 +73,12 @@ pub(super) fn along_axis<const D: usize>(body: &impl Bonded<D>, part: usize) -> 
 pub(super) fn on_axis(body: &Body, row: usize, part: usize) -> ElementState {
     let place = body.axis_place(row);
     let zz = stress(body, row, place)[1];
+    let [start, now] = [body.reference(row, place)[1], body.position(row, place)[1]];
     ElementState {
         part,
-        initial_position: body.reference(row, place)[1],
-        position: body.position(row, place)[1],
+        initial_position: start,
+        position: now,
+        displacement: now - start,
         length: ROW * body.lattice.spacing,
         stress: -zz,
         strain: -axial_strain(body, row),

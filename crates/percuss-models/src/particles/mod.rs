@@ -190,6 +190,13 @@ impl Model for Particles {
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
+        if let Some(gauge) = scenario.gauges.iter().find(|gauge| gauge.fixed) {
+            let reason = format!(
+                "it has gauges of the material only, and `{}` is fixed",
+                gauge.name
+            );
+            return Some(Refusal::new(reason).with_remedy("remove `fixed` of the gauge"));
+        }
         match ball::is_meant(scenario) {
             true => ball::not_applicable(scenario),
             false => setup::not_applicable(scenario),

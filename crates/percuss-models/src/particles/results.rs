@@ -116,6 +116,7 @@ pub(super) fn at_gauge<B: Bonded<D>, const D: usize>(
         let place = run.pose().place([0.0, position]);
         return ElementState {
             position: place[1],
+            displacement: place[1] - position,
             velocity: run.state.flight.velocity_at(place)[1],
             ..gone
         };

@@ -484,6 +484,7 @@ pub(super) mod tests {
             part: 1,
             initial_position: 2e-3,
             position: 3e-3,
+            displacement: 1e-3,
             length: 1e-3,
             stress: 2e8,
             strain: 0.1,

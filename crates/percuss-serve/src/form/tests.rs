@@ -36,6 +36,22 @@ fn fields_follow_from_the_schema() {
         choices.contains(&"{ ogive = { crh = 1.0 } }".to_owned()),
         "{choices:?}"
     );
+    assert!(
+        choices.contains(&"{ cone = { length_to_diameter = 1.0 } }".to_owned()),
+        "{choices:?}"
+    );
+    let Kind::Choice { choices } = field("projectile.nose.cone").kind else {
+        panic!("no choice");
+    };
+    assert!(choices.contains(&"{ angle = \"30 deg\" }".to_owned()));
+    assert!(matches!(
+        field("projectile.nose.cone.half_angle"),
+        Field {
+            kind: Kind::Quantity { .. },
+            alternative: true,
+            ..
+        }
+    ));
     let Kind::Choice { choices } = field("chain.target_resistance").kind else {
         panic!("no choice");
     };

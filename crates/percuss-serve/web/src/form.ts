@@ -93,6 +93,8 @@ export class Form {
     // A field within a value is there with the value; a field that belongs to another form of target is not in the way.
     const present = (values: Values) => {
       if (field.key in values) return true;
+      // Of several forms of a value the one that the case gives.
+      if (field.alternative) return Object.keys(values).some((key) => key.startsWith(`${field.key}.`));
       const around = field.key.slice(0, field.key.lastIndexOf("."));
       if (field.nested) return Object.keys(values).some((key) => key.startsWith(`${around}.`));
       const single = field.key === "target.material" || field.key === "target.thickness";

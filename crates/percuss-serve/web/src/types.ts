@@ -14,6 +14,7 @@ export interface Field {
   choices?: string[];
   common: boolean;
   nested: boolean;
+  alternative: boolean;
   slider: [number, number] | null;
 }
 

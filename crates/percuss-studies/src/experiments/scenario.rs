@@ -101,10 +101,11 @@ impl Experiment {
             length: self.length.map(Length::new),
             mass: self.mass.map(Mass::new),
             diameter: Length::new(self.diameter.unwrap_or(0.0)),
-            nose: self.nose,
+            nose: self.nose.into(),
             impact_velocity: Velocity::new(self.impact_velocity),
             obliquity: (self.obliquity_deg != 0.0)
                 .then(|| Angle::new(self.obliquity_deg.to_radians())),
+            yaw: None,
             temperature: temperature.map(Temperature::new),
         };
         Case {

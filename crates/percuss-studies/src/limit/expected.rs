@@ -62,8 +62,11 @@ struct Plate {
 }
 
 impl Plate {
-    /// The kind of a case at its impact velocity; `None` unless one plate is struck.
+    /// The kind of a case at its impact velocity; `None` unless one plate is struck, at the temperature of the published limits.
     fn of(scenario: &Scenario) -> Option<Self> {
+        if scenario.is_heated() {
+            return None;
+        }
         let TargetBody::Layers { layers, .. } = &scenario.target else {
             return None;
         };

@@ -105,11 +105,7 @@ pub fn estimate_error(
     regime: &Regime,
 ) -> Option<ModelErrorEstimate> {
     let rod = &scenario.projectile;
-    let room = rod.material.room_temperature.si();
-    let heated = rod
-        .temperature
-        .is_some_and(|temperature| temperature != room);
-    if !is_deep(model, scenario, regime.target) || rod.nose != Nose::Flat || heated {
+    if !is_deep(model, scenario, regime.target) || rod.nose != Nose::Flat || scenario.is_heated() {
         return None;
     }
     let length = scenario.projectile.length / scenario.projectile.diameter;

@@ -6,16 +6,22 @@ use super::*;
 use crate::{
     made_up::MadeUp,
     outcome::{Outcome, RunResult, Termination},
+    scenario::TargetBody,
     validity::ValidityDomain,
 };
 
 /// Loads a sweep written into a folder of its own, beside the case that it names.
 pub(super) fn load(name: &str, text: &str) -> Result<Sweep, Error> {
-    let folder = std::env::temp_dir().join(format!("percuss-sweep-{}-{name}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
     let case =
         PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../cases/paper-table1/scenario.toml");
-    std::fs::copy(case, folder.join("scenario.toml")).unwrap();
+    load_case(name, &std::fs::read_to_string(case).unwrap(), text)
+}
+
+/// The same beside a case of this text.
+fn load_case(name: &str, case: &str, text: &str) -> Result<Sweep, Error> {
+    let folder = std::env::temp_dir().join(format!("percuss-sweep-{}-{name}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("scenario.toml"), case).unwrap();
     std::fs::write(folder.join("sweep.toml"), text).unwrap();
     let sweep = Sweep::load(folder.join("sweep.toml"));
     std::fs::remove_dir_all(&folder).unwrap();
@@ -249,6 +255,47 @@ values = ['column', 'diverging', 'expanding-cavity']
         let count = (0..48).filter(|i| drawn.run(*i).inputs[2] == f64::from(word));
         assert_eq!(count.count(), 16);
     }
+}
+
+#[test]
+fn materials_are_varied_by_any_of_their_names() {
+    for key in ["projectile.material", "target.layers.0.material"] {
+        let text = format!("[[parameter]]\nkey = '{key}'\nvalues = ['304', 'copper', '4340']");
+        let case = "
+[projectile]
+material = 'copper'
+length = '20 mm'
+diameter = '5 mm'
+impact_velocity = '300 m/s'
+[target]
+layers = [{ material = 'copper', thickness = '20 mm' }]
+";
+        let grid = load_case(
+            "digits",
+            case,
+            &format!("base = 'scenario.toml'\ndesign = 'grid'\n{text}"),
+        );
+        let grid = grid.unwrap_or_else(|error| panic!("{key}: {error}"));
+        let ids: Vec<String> = (0..3)
+            .map(|i| {
+                let scenario = grid.run(i).scenario.unwrap();
+                match &scenario.target {
+                    TargetBody::Layers { layers, .. } if key.starts_with("target") => {
+                        layers[0].material_id.clone()
+                    }
+                    _ => scenario.projectile.material_id.clone(),
+                }
+            })
+            .collect();
+        assert_eq!(ids[0], "304-steinberg", "{key}");
+        assert_eq!(ids[2], "4340-johnson-cook", "{key}");
+        assert_eq!(grid.axes[0].words().unwrap(), ["304", "copper", "4340"]);
+    }
+    // A key that takes no name still refuses a quoted number without a unit.
+    let speeds = "base = 'scenario.toml'\n[[parameter]]\nkey = 'projectile.impact_velocity'\nvalues = ['230 m/s', '4340']";
+    let error = load("no-unit", speeds).unwrap_err().to_string();
+    assert!(error.contains("`4340` has no unit"), "{error}");
+    assert!(error.contains("parameter.0.values.1"), "{error}");
 }
 
 #[test]

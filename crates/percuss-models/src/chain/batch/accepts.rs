@@ -88,6 +88,7 @@ fn single_layer(target: &TargetBody) -> Option<&Material> {
             gap,
             interface: _,
             column_diameter: _,
+            temperature: _,
         },
     ] = layers.as_slice()
     else {

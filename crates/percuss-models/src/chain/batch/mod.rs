@@ -104,7 +104,8 @@ fn reach(scenario: &Scenario) -> f64 {
     let TargetBody::Layers { layers, .. } = &scenario.target else {
         return 0.0;
     };
-    constraint_factor(options.constraint_factor(), &layers[0].material) / options.border_shear()
+    let (struck, factor) = (&layers[0], options.constraint_factor());
+    constraint_factor(factor, &struck.material, struck.start_temperature()) / options.border_shear()
 }
 
 struct BatchScheduler<'a, 'b> {

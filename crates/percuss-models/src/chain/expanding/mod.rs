@@ -75,7 +75,11 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
         );
     };
     if scenario.resistance.is_some() {
-        return None;
+        let refusal = || {
+            Refusal::new("a resistance law of the caller's own does not depend on the temperature of the target")
+                .with_remedy("remove `target.temperature`, or take it into account in the law")
+        };
+        return scenario.has_heated_target().then(refusal);
     }
     let yields = plate
         .material
@@ -122,9 +126,7 @@ impl<'a> Cavity<'a> {
         };
         let rate_effects = options.rate_effects();
         let metal = Metal::new(&projectile.material, heat, rate_effects);
-        let temperature = projectile
-            .temperature
-            .unwrap_or(projectile.material.room_temperature.si());
+        let temperature = projectile.start_temperature();
         let speed = scenario.impact_velocity;
         let count = options.projectile_elements();
         let rod = Rod::new(metal, count, projectile.length, area, temperature, speed);
@@ -141,8 +143,15 @@ impl<'a> Cavity<'a> {
         let resistance_law = match &scenario.resistance {
             Some(own) => TargetResistance::Own(own.clone()),
             None => TargetResistance::Cavity(
-                Resistance::new(&plate.material, radius, rate, heat, free_rear_face)
-                    .ok_or_else(refuse)?,
+                Resistance::new(
+                    &plate.material,
+                    plate.start_temperature(),
+                    radius,
+                    rate,
+                    heat,
+                    free_rear_face,
+                )
+                .ok_or_else(refuse)?,
             ),
         };
         let floor = CraterFloor::new(resistance_law, area, plate.material.density.si());
@@ -324,7 +333,7 @@ fn far_field(
         modulus * cone.stiffness_beyond(thickness),
     ];
     let density = material.density.si();
-    let constants = [density, modulus, material.room_temperature.si()];
+    let constants = [density, modulus, plate.start_temperature()];
     let far_field = FarField::new(cone, grading, thickness, count, constants, beyond);
     let plane_modulus = material.bulk_modulus() + material.shear_modulus() / 0.75;
     let speeds = [material.bar_wave_speed(), (plane_modulus / density).sqrt()];

@@ -42,10 +42,11 @@ struct Relief {
 }
 
 impl Resistance {
-    /// Of a target under a projectile of a radius [m], at a strain rate [1/s], with a part of the plastic work as heat, and with a free rear
+    /// Of a target at a temperature [K] under a projectile of a radius [m], at a strain rate [1/s], with a part of the plastic work as heat, and with a free rear
     /// face at a depth [m], if it has one; `None` for a material that never yields.
     pub(super) fn new(
         material: &Material,
+        temperature: f64,
         radius: f64,
         strain_rate: f64,
         heat_fraction: f64,
@@ -60,7 +61,7 @@ impl Resistance {
         let mut state = FlowState {
             plastic_strain: 0.0,
             strain_rate,
-            temperature: material.room_temperature.si(),
+            temperature,
             pressure: 0.0,
         };
         let yield_stress = strength.flow_stress(&state).stress;
@@ -184,6 +185,9 @@ mod tests {
     use super::*;
     use crate::material::cavity_expansion_pressure;
 
+    /// Temperature of the metal [K], which its law does not depend on.
+    const ROOM: f64 = 293.0;
+
     fn metal() -> Material {
         toml::from_str(
             "name = 'a'\ndensity = '2700 kg/m3'\nyoungs_modulus = '70 GPa'\npoissons_ratio = 0.33\n\
@@ -194,7 +198,7 @@ mod tests {
 
     #[test]
     fn it_begins_at_first_yield_and_ends_at_steady_penetration() {
-        let resistance = Resistance::new(&metal(), 2.5e-3, 1.0, 0.0, None).unwrap();
+        let resistance = Resistance::new(&metal(), ROOM, 2.5e-3, 1.0, 0.0, None).unwrap();
         assert!((resistance.at(0.0) / (350e6 / 1.5) - 1.0).abs() < 1e-12);
         let steady = cavity_expansion_pressure(&metal()).unwrap();
         assert!((resistance.steady() / steady - 1.0).abs() < 2e-3);
@@ -204,7 +208,7 @@ mod tests {
     fn a_small_advance_has_its_closed_form() {
         // With constant flow stress the integral is closed: p = (2Y/3)[1 + ln((1 - e^(-3ε_a/2))/(1 - e^(-3ε_y/2)))] with
         // e^(3ε_a/2) = 1 + 3d/2a for a total advance d; the elastic part of it is p a/2G.
-        let resistance = Resistance::new(&metal(), 2.5e-3, 1.0, 0.0, None).unwrap();
+        let resistance = Resistance::new(&metal(), ROOM, 2.5e-3, 1.0, 0.0, None).unwrap();
         let total: f64 = 0.04;
         let wall = 1.0 - 1.0 / (1.0 + 1.5 * total);
         let first = -(-1.5 * 350e6 / 70e9_f64).exp_m1();
@@ -218,7 +222,7 @@ mod tests {
     #[test]
     fn a_free_rear_face_takes_the_strength_of_a_thick_shell_away() {
         // In one direction: the closed form of a thick shell that flows all through, 2Y ln(c/a).
-        let resistance = Resistance::new(&metal(), 2.5e-3, 1.0, 0.0, Some(1.0)).unwrap();
+        let resistance = Resistance::new(&metal(), ROOM, 2.5e-3, 1.0, 0.0, Some(1.0)).unwrap();
         let yield_stress = 350e6;
         let strain = |x: f64| (1.5 * x).ln_1p() / 1.5;
         let endless = |x: f64| {
@@ -251,10 +255,10 @@ mod tests {
 
     #[test]
     fn a_rear_face_far_away_takes_nothing_away_and_a_near_one_everything() {
-        let endless = Resistance::new(&metal(), 2.5e-3, 1.0, 0.0, None).unwrap();
+        let endless = Resistance::new(&metal(), ROOM, 2.5e-3, 1.0, 0.0, None).unwrap();
         let mut before = 0.0;
         for thickness in [3e-3, 5e-3, 10e-3, 50e-3, 500e-3] {
-            let plate = Resistance::new(&metal(), 2.5e-3, 1.0, 0.0, Some(thickness)).unwrap();
+            let plate = Resistance::new(&metal(), ROOM, 2.5e-3, 1.0, 0.0, Some(thickness)).unwrap();
             let pressure = plate.at(1e-3);
             assert!(pressure > before, "{thickness}");
             before = pressure;

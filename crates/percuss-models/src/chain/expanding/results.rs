@@ -259,10 +259,13 @@ pub(super) fn sample(state: &State) -> Sample {
 }
 
 pub(super) fn profile(state: &State) -> Profile {
+    let place =
+        |nodes: &[Node; 2]| 0.5 * (nodes[0].position + nodes[1].position) + state.floor.lost_length;
     let rod = state.rod.slices().map(|(slice, own, nodes)| ElementState {
         part: 0,
         initial_position: own.initial_position,
-        position: 0.5 * (nodes[0].position + nodes[1].position) + state.floor.lost_length,
+        position: place(&nodes),
+        displacement: place(&nodes) - own.initial_position,
         length: slice.length,
         stress: slice.axial_stress(),
         strain: slice.strain,
@@ -279,6 +282,7 @@ pub(super) fn profile(state: &State) -> Profile {
             part: 1,
             initial_position: spring.middle,
             position: spring.middle + spring.displacement + state.floor.depth,
+            displacement: spring.displacement,
             length: spring.length,
             stress: spring.stress,
             strain: spring.strain,

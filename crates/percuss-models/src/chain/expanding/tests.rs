@@ -254,7 +254,8 @@ fn a_rigid_rod_is_stopped_by_the_resistance_alone() {
     let scenario = case::load_str("impact", text).unwrap();
     let result = run(&scenario);
     let struck = &super::struck(&scenario).unwrap().material;
-    let resistance = Resistance::new(struck, RADIUS, 0.0, 0.0, None).unwrap();
+    let resistance =
+        Resistance::new(struck, struck.room_temperature.si(), RADIUS, 0.0, 0.0, None).unwrap();
     let area = PI * RADIUS * RADIUS;
     let mass = 7850.0 * area * length + 4.0 / 3.0 * 2700.0 * RADIUS.powi(3);
     // The added mass is set in motion by the rod when they meet.
@@ -333,7 +334,15 @@ fn a_law_of_the_callers_own_takes_the_place_of_the_cavity() {
     let cavity = run(&impact).depth_of_penetration.unwrap();
     let struck = super::struck(&impact).unwrap().material.clone();
     let own = Same {
-        cavity: Resistance::new(&struck, RADIUS, 400.0 / (2.0 * RADIUS), 0.9, None).unwrap(),
+        cavity: Resistance::new(
+            &struck,
+            struck.room_temperature.si(),
+            RADIUS,
+            400.0 / (2.0 * RADIUS),
+            0.9,
+            None,
+        )
+        .unwrap(),
         density: struck.density.si(),
     };
     impact.resistance = Some(CustomResistance(Arc::new(own)));

@@ -130,7 +130,11 @@ impl<'a> Published<'a> {
             rod_elements,
             body.mass,
         );
-        let factor = constraint_factor(chain.constraint_factor(), &plate.material);
+        let factor = constraint_factor(
+            chain.constraint_factor(),
+            &plate.material,
+            plate.start_temperature(),
+        );
         let column_mass = plate.material.density.si() * PI * column * column / 4.0 * thickness;
         let column_mass = options.target_mass.map_or(column_mass, |mass| mass.si());
         let target = springs(

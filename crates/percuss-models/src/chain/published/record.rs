@@ -79,6 +79,7 @@ impl Published<'_> {
                 part,
                 initial_position: centre,
                 position: centre + moved,
+                displacement: moved,
                 length: springs.length - shortening,
                 stress: springs.force(shortening, springs.length) / area,
                 strain: shortening / springs.length,

@@ -1,7 +1,7 @@
 //! Snapshot of a grid for histories and results.
 
 use super::{BoundaryCondition, Grid, Law, View};
-use crate::history::{ElementState, PROFILE_ELEMENTS, Profile, Sample};
+use crate::history::{ElementState, Profile, Sample};
 
 impl<L: Law> Grid<L> {
     /// The last segment of the projectile.
@@ -68,8 +68,9 @@ impl<L: Law> Grid<L> {
         sample
     }
 
-    pub(in crate::fdm) fn profile(&self) -> Profile {
-        let stride = self.cells.len().div_ceil(PROFILE_ELEMENTS).max(1);
+    /// Elements along the axis, thinned out to about `most`.
+    pub(in crate::fdm) fn profile(&self, most: usize) -> Profile {
+        let stride = self.cells.len().div_ceil(most).max(1);
         let mut elements = Vec::with_capacity(self.cells.len() / stride + 1);
         for (s, segment) in self.segments.iter().enumerate() {
             for c in segment.cells.clone().step_by(stride) {
@@ -79,6 +80,7 @@ impl<L: Law> Grid<L> {
                     part: segment.body,
                     initial_position: view.initial_position,
                     position: 0.5 * (back + front),
+                    displacement: 0.5 * (back + front) - view.initial_position,
                     length: front - back,
                     stress: view.stress,
                     strain: view.strain,

@@ -13,7 +13,7 @@ use crate::{
         audit::{self, AUDIT},
         grid::{BoundaryCondition, Grid, Slab},
     },
-    history::{Profile, Sample},
+    history::{PROFILE_ELEMENTS, Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
     material::{Library, Material},
     options::{FdmOptions, MAX_STEPS},
@@ -24,6 +24,7 @@ use crate::{
         Control,
         archive::Archive,
         driver::Drive,
+        frames::Fields,
         interface::{Audit, Extremes, Solver},
         limits::Limits,
         monitor::{Clock, Probe, RunMonitor},
@@ -334,7 +335,11 @@ impl<'a> Solver<'a> for PlanarImpact<'a> {
     }
 
     fn profile(&self) -> Profile {
-        self.grid.profile()
+        self.grid.profile(PROFILE_ELEMENTS)
+    }
+
+    fn fields(&self) -> Fields<'_> {
+        Fields::Elements(self.grid.profile(usize::MAX).elements)
     }
 
     fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {

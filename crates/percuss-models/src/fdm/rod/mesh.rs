@@ -86,7 +86,7 @@ pub(super) fn build(scenario: &Scenario, options: &FdmOptions) -> Grid<RodLaw> {
             let mut start = 0.0;
             for plate in layers {
                 let material = &plate.material;
-                let factor = constraint_factor(factor, material);
+                let factor = constraint_factor(factor, material, plate.start_temperature());
                 let thickness = modelled_thickness(plate, scenario);
                 let cells = ((all * thickness / total).round() as usize).max(1);
                 let law = law(material, area, factor, options, scenario);

@@ -10,7 +10,7 @@ use crate::{
         audit::{self, AUDIT, REST_FRACTION},
         grid::{BoundaryCondition, Grid},
     },
-    history::{Profile, Sample},
+    history::{PROFILE_ELEMENTS, Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
     options::{FdmOptions, MAX_STEPS},
     outcome::{Outcome, RunResult, Termination},
@@ -18,6 +18,7 @@ use crate::{
         Control,
         archive::Archive,
         driver::Drive,
+        frames::Fields,
         interface::{Audit, Extremes, Solver, slowed},
         limits::Limits,
         monitor::{Clock, Probe, RunMonitor},
@@ -199,7 +200,11 @@ impl<'a> Solver<'a> for Rod<'a> {
     }
 
     fn profile(&self) -> Profile {
-        self.grid.profile()
+        self.grid.profile(PROFILE_ELEMENTS)
+    }
+
+    fn fields(&self) -> Fields<'_> {
+        Fields::Elements(self.grid.profile(usize::MAX).elements)
     }
 
     fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error> {

@@ -258,6 +258,7 @@ impl<'a> Solver<'a> for Collision<'a> {
             elements: finite
                 .map(|(part, ball)| ElementState {
                     position: ball.centre[1],
+                    displacement: ball.centre[1] - starts[part],
                     length: 2.0 * ball.radius,
                     diameter: 2.0 * ball.radius,
                     velocity: ball.velocity[1],

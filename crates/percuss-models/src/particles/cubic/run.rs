@@ -229,10 +229,12 @@ impl Bonded<3> for CubicBody {
 
     fn on_axis(&self, layer: usize, part: usize) -> ElementState {
         let place = self.axis_place(layer);
+        let [start, now] = [self.rest_place(layer, place)[2], self.now(layer, place)[2]];
         ElementState {
             part,
-            initial_position: self.rest_place(layer, place)[2],
-            position: self.now(layer, place)[2],
+            initial_position: start,
+            position: now,
+            displacement: now - start,
             length: 0.5 * self.lattice.side(),
             stress: -self.stress(layer, place)[2],
             strain: -fields::axial_strain(self, layer),

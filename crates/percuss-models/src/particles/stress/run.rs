@@ -215,10 +215,12 @@ impl Bonded<2> for StressBody {
     fn on_axis(&self, row: usize, part: usize) -> ElementState {
         let place = self.axis_place(row);
         let point = self.rows[row].point(place);
+        let [start, now] = [self.reference(row, place)[1], self.position(row, place)[1]];
         ElementState {
             part,
-            initial_position: self.reference(row, place)[1],
-            position: self.position(row, place)[1],
+            initial_position: start,
+            position: now,
+            displacement: now - start,
             length: ROW * self.spacing(),
             stress: point.pressure + point.viscous_pressure - point.deviator[1],
             strain: -fields::axial_strain(self, row),
