@@ -46,7 +46,7 @@ pub fn text(
     text += &rows(&outcome);
     block(
         &format!("model {}", result.model),
-        &result_rows::detail_rows(result),
+        &result_rows::detail_rows(result, result_rows::DIGITS),
         &mut text,
     );
     block(
@@ -57,7 +57,11 @@ pub fn text(
     text += &fragment_table::text(&record.fragments);
     if let Some(numerics) = &result.numerics {
         energy(numerics, &mut text);
-        let balance = result_rows::balance_rows(numerics, result.end_time.unwrap_or(0.0));
+        let balance = result_rows::balance_rows(
+            numerics,
+            result.end_time.unwrap_or(0.0),
+            result_rows::DIGITS,
+        );
         block(
             "energy balance, momentum balance and time steps",
             &balance,

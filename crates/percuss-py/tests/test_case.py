@@ -103,6 +103,7 @@ def test_quantities_of_pint() -> None:
     assert case.impact_velocity_m_s == pytest.approx(230.0, rel=1e-15)
     texts = percuss.Case(projectile={**COPPER, "temperature": "293 K"}, target=PLATE)
     assert quantities.text(units.Quantity(20, "degC")) == "293.15 K"
+    assert quantities.text(750 * units.ft / units.s) == "228.6 m/s"
     assert percuss.run(case).depth_of_penetration_mm == pytest.approx(percuss.run(texts).depth_of_penetration_mm, rel=1e-9)
     with pytest.raises(percuss.CaseError, match="but a length is due here"):
         case.replace({"projectile.diameter": 3 * units.kg})
@@ -111,6 +112,7 @@ def test_quantities_of_pint() -> None:
 def test_quantities_of_astropy() -> None:
     units = pytest.importorskip("astropy.units")
     assert quantities.text(20 * units.deg_C) == "293.15 K"
+    assert quantities.text(750 * units.imperial.ft / units.s) == "228.6 m/s"
     rod = {"material": "copper", "length": 12.74 * units.mm, "diameter": 0.48 * units.cm, "impact_velocity": 0.23 * units.km / units.s}
     case = percuss.Case(projectile=rod, target={**PLATE, "thickness": 25 * units.mm})
     assert case.impact_velocity_m_s == pytest.approx(230.0, rel=1e-15)

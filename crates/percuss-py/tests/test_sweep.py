@@ -69,6 +69,8 @@ def test_a_sweep_is_that_of_the_program(program: Program, tmp_path: Path) -> Non
     axes = rows.plot("projectile.impact_velocity_m_s", "depth_of_penetration_mm", "projectile.diameter_mm")
     assert axes.get_xlabel() == "projectile.impact_velocity_m_s" and axes.collections
     assert "24 of 24" in repr(rows) and "small" in rows._repr_html_()
+    depths = rows.to_pandas()["depth_of_penetration_mm"]
+    assert f"; depth of penetration {depths.min():.3g} to {depths.max():.3g} mm; " in repr(rows) and "units: " in repr(rows)
 
 
 def test_parts_resume_and_merge(program: Program, tmp_path: Path) -> None:

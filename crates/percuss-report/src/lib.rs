@@ -112,6 +112,7 @@ pub use limit_files::{limit_files, write_limits};
 pub use limit_words::{axisymmetric_limit, limit_headline};
 pub use mark::Mark;
 pub use material_card::{CardLine, CardSection, MaterialCard};
+pub use names::parameter_label;
 pub use page::html::escape as escape_html;
 pub use row_chart::RowChart;
 pub use run_figures::{run_charts, run_figures};

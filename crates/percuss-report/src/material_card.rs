@@ -1,7 +1,7 @@
 //! All constants of a material, for the terminal and the page.
 
 use percuss::{
-    material::{Library, Material, MaterialEntry, MaterialGroup, TulerButcher, references},
+    material::{Library, Material, MaterialEntry, TulerButcher, references},
     units::{Pressure, Velocity, significant},
 };
 
@@ -98,32 +98,6 @@ impl MaterialCard {
         html::render(&page)
     }
 
-    /// A page that lists the materials of a library, with a link `address(id)` to each card.
-    pub fn list_html(library: &Library, address: impl Fn(&str) -> String) -> String {
-        let mut page = vec![
-            Block::Title("Materials".to_owned()),
-            Block::Text(
-                "Alternative records of one material form a family; the name of the family selects the record marked ★. Trust grades the \
-                 numbers: A two independent sources, B one secondary source that names its primary source, C indicative."
-                    .to_owned(),
-            ),
-        ];
-        let groups = MaterialGroup::ALL.into_iter().map(Some);
-        for group in groups.chain([None]) {
-            let mut entries: Vec<&MaterialEntry> = library.iter().collect();
-            entries.retain(|entry| entry.material.group == group);
-            if entries.is_empty() {
-                continue;
-            }
-            entries.sort_by_key(|entry| (family(entry), &entry.id));
-            let heading = group.map_or("Other materials", MaterialGroup::describe);
-            page.push(Block::Heading(heading.to_owned()));
-            let link = |entry: &MaterialEntry| (address(&entry.id), in_one_line(entry));
-            page.push(Block::Links(entries.into_iter().map(link).collect()));
-        }
-        html::render(&page)
-    }
-
     fn heading(&mut self, heading: &str) {
         self.sections.push(CardSection {
             heading: heading.to_owned(),
@@ -158,26 +132,6 @@ impl MaterialCard {
             self.row("from", &sources.join(", "));
         }
     }
-}
-
-/// The family of a material; one without is a family of its own.
-fn family(entry: &MaterialEntry) -> &str {
-    entry.material.family.as_deref().unwrap_or(&entry.id)
-}
-
-fn in_one_line(entry: &MaterialEntry) -> String {
-    let material = &entry.material;
-    let star = if material.recommended { " ★" } else { "" };
-    let state = material.state.as_deref().unwrap_or_default();
-    let parts = [
-        format!("{}{star}: {}", entry.id, material.name),
-        state.to_owned(),
-        material.strength.key().replace('_', " "),
-        format!("trust {}", material.trust.letter()),
-        material.sources.join(", "),
-    ];
-    let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
-    parts.join("; ")
 }
 
 fn names(entry: &MaterialEntry, card: &mut MaterialCard) {

@@ -12,6 +12,11 @@ pub(crate) fn with_unit(name: &str, unit: &str) -> String {
     }
 }
 
+/// Name of a parameter of a case by its dotted key, and its unit in parentheses, as charts have it.
+pub fn parameter_label(key: &str, unit: &str) -> String {
+    with_unit(&parameter(key), unit)
+}
+
 /// Text with a capital first letter.
 pub(crate) fn capitalized(text: &str) -> String {
     let mut letters = text.chars();

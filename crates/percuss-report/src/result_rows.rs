@@ -173,13 +173,17 @@ fn curve_words(curve: &CurveComparison) -> String {
 }
 
 /// Numbers that are specific to the model.
-pub fn detail_rows(result: &RunResult) -> Vec<Row> {
-    let row = |detail: &Detail| (detail.name.to_owned(), number(detail.value, detail.unit));
+pub fn detail_rows(result: &RunResult, digits: usize) -> Vec<Row> {
+    let row = |detail: &Detail| {
+        let value = to_digits(detail.value, detail.unit, digits);
+        (detail.name.to_owned(), value)
+    };
     result.details.iter().map(row).collect()
 }
 
 /// Errors of the energy and momentum balances, and the time steps.
-pub fn balance_rows(numerics: &Numerics, end_time: f64) -> Vec<Row> {
+pub fn balance_rows(numerics: &Numerics, end_time: f64, digits: usize) -> Vec<Row> {
+    let number = |value: f64, unit: &str| to_digits(value, unit, digits);
     let off = |residual: f64, what: &str| match residual {
         0.0 => format!("0 of the initial {what}"),
         _ => format!("{residual:.1e} of the initial {what}"),

@@ -18,9 +18,9 @@ fn file(name: &str) -> Option<&'static [u8]> {
     found.map(|(_, content)| *content)
 }
 
-/// The page before its data are put in.
-pub(crate) fn template() -> String {
-    String::from_utf8_lossy(file("index.html").unwrap_or_default()).into_owned()
+/// A page before its data are put in.
+pub(crate) fn template(name: &str) -> String {
+    String::from_utf8_lossy(file(name).unwrap_or_default()).into_owned()
 }
 
 /// `GET /assets/{name}`.

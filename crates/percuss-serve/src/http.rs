@@ -34,6 +34,13 @@ pub(crate) fn json(status: StatusCode, value: &impl Serialize) -> Response {
     respond(status, "application/json", text)
 }
 
+/// A page with scripts of its own.
+pub(crate) fn page(html: String) -> Response {
+    let mut response = respond(StatusCode::OK, "text/html; charset=utf-8", html);
+    set_policy(response.headers_mut(), PAGE_POLICY);
+    response
+}
+
 /// A report as a page.
 pub(crate) fn report(html: String) -> Response {
     let mut response = respond(StatusCode::OK, "text/html; charset=utf-8", html);

@@ -1,6 +1,6 @@
 //! The page with the results of its first case.
 
-use axum::{extract::State, http::StatusCode, response::Response};
+use axum::{extract::State, response::Response};
 use percuss::{
     material::{Library, MaterialEntry},
     model::{CostClass, MODELS, Model},
@@ -54,6 +54,8 @@ struct MaterialRecord<'a> {
     recommended: bool,
     trust: &'static str,
     sources: &'a [String],
+    /// What a search looks at.
+    words: String,
 }
 
 #[derive(Serialize)]
@@ -85,7 +87,7 @@ impl Index {
         // Long values come last.
         first.sort_by_key(|(_, value)| is_long(value));
         let rows: String = first.into_iter().map(row).collect();
-        let page = assets::template()
+        let page = assets::template("index.html")
             .replace("<!--answer-->", &rows)
             .replace("<!--data-->", &data);
         Self(page)
@@ -93,10 +95,7 @@ impl Index {
 
     /// `GET /`.
     pub(crate) async fn get(State(index): State<Arc<Self>>) -> Response {
-        let mut response =
-            http::respond(StatusCode::OK, "text/html; charset=utf-8", index.0.clone());
-        http::set_policy(response.headers_mut(), http::PAGE_POLICY);
-        response
+        http::page(index.0.clone())
     }
 }
 
@@ -117,6 +116,7 @@ fn material_record(entry: &MaterialEntry) -> MaterialRecord<'_> {
         recommended: material.recommended,
         trust: material.trust.letter(),
         sources: &material.sources,
+        words: entry.search_text(),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Pages of the materials and of the validation report.
+//! Pages of a material and of the validation report.
 
 use std::{
     ops::ControlFlow,
@@ -18,14 +18,6 @@ use serde::Deserialize;
 use serde_json::json;
 
 use crate::{assets, events, http, job::Workers, problem::Problem, request};
-
-/// `GET /materials`.
-pub(crate) async fn materials() -> Response {
-    let library = Library::built_in();
-    http::report(MaterialCard::list_html(library, |id| {
-        format!("/materials/{id}")
-    }))
-}
 
 /// `GET /materials/{name}`.
 pub(crate) async fn material(Path(name): Path<String>) -> Response {

@@ -21,7 +21,7 @@ use crate::{
     RequestLimits,
     constants::{self, Constant},
     events::EventSender,
-    form, http,
+    form, http, in_use,
     job::{Stop, Workers},
     problem::Problem,
     request::{self, CaseRequest, ReadCase},
@@ -43,6 +43,8 @@ pub(crate) struct CaseResponse {
     case: String,
     /// Values by dotted key.
     values: BTreeMap<String, Value>,
+    /// Values in use of keys that are not given and have no default of their own; empty in a draft.
+    in_use: BTreeMap<String, String>,
     /// Constants of its materials; empty in a draft.
     constants: Vec<Constant>,
     model: &'static str,
@@ -136,7 +138,7 @@ pub(crate) fn compute(
     let mut result = run(&scenario, chosen, stop, events)?;
     let results = CaseResults::new(&scenario, std::slice::from_ref(&result));
     let balances = result.numerics.as_ref().map_or_else(Vec::new, |numerics| {
-        result_rows::balance_rows(numerics, result.end_time.unwrap_or(0.0))
+        result_rows::balance_rows(numerics, result.end_time.unwrap_or(0.0), DIGITS)
     });
     let outcome = result_rows::outcome_rows(&scenario, &result, &results.results[0], DIGITS);
     let choice = chosen
@@ -149,15 +151,20 @@ pub(crate) fn compute(
         .map(|note| ("target resistance".to_owned(), note.clone()));
     let rows = [
         choice.chain(resistance).chain(outcome).collect(),
-        result_rows::detail_rows(&result),
+        result_rows::detail_rows(&result, DIGITS),
         balances,
-    ];
+    ]
+    .map(typeset);
     let charts = match in_view {
         Some(in_view) => draft(&scenario, &mut result, in_view)?,
         None => charts(&scenario, &result, Some(CELLS))?,
     };
     let values = form::values(&text);
     Ok(CaseResponse {
+        in_use: match in_view {
+            Some(_) => BTreeMap::new(),
+            None => in_use::of(&scenario),
+        },
         constants: match in_view {
             Some(_) => Vec::new(),
             None => constants::all(&values, &scenario),
@@ -170,6 +177,21 @@ pub(crate) fn compute(
         charts: charts.iter().map(Chart::data).collect(),
         elapsed_ms: start.elapsed().as_secs_f64() * 1e3,
     })
+}
+
+/// Rows with the sign of microseconds, which are `us` in the terminal and in files.
+fn typeset(rows: Vec<result_rows::Row>) -> Vec<result_rows::Row> {
+    let words = |value: &str| {
+        let words = value.split(' ').map(|word| match word {
+            "us" => "µs",
+            "us," => "µs,",
+            word => word,
+        });
+        words.collect::<Vec<_>>().join(" ")
+    };
+    rows.into_iter()
+        .map(|(label, value)| (label, words(&value)))
+        .collect()
 }
 
 /// Reads the case of a request and computes it.

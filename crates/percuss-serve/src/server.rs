@@ -39,7 +39,7 @@ use crate::{
     host_guard::HostGuard,
     index::Index,
     job::{Stop, Workers},
-    limits,
+    limits, materials,
     pages::{self, Validation},
     refinement, request, response, study,
 };
@@ -176,7 +176,7 @@ fn routes(shared: Shared, guard: HostGuard) -> Router {
     Router::new()
         .route("/", get(Index::get))
         .route("/assets/{name}", get(assets::get))
-        .route("/materials", get(pages::materials))
+        .route("/materials", get(materials::get))
         .route("/materials/{name}", get(pages::material))
         .route("/validation", get(Validation::get))
         .route("/api/answer", post(response::post))
@@ -184,6 +184,7 @@ fn routes(shared: Shared, guard: HostGuard) -> Router {
         .route("/api/refinement", post(refinement::post))
         .route("/api/study/{kind}", post(study::post))
         .route("/api/uncertainty-example", post(study::uncertainty_example))
+        .route("/api/calibration-example", post(study::calibration_example))
         .route("/api/validation", post(Validation::post))
         .fallback(async || assets::missing().into_response())
         .layer(middleware::from_fn_with_state(

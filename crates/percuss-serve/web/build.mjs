@@ -1,11 +1,11 @@
-// Builds the page into a folder: one script, one style sheet and the page itself.
+// Builds the pages into a folder: a script of each, one style sheet and the pages themselves.
 import { copyFileSync, mkdirSync } from "node:fs";
 import { build } from "esbuild";
 
 const out = process.argv[2] ?? "dist";
 mkdirSync(out, { recursive: true });
 await build({
-  entryPoints: { app: "src/main.ts" },
+  entryPoints: { app: "src/main.ts", materials: "src/materials.ts" },
   outdir: out,
   bundle: true,
   minify: true,
@@ -14,4 +14,4 @@ await build({
   charset: "utf8",
   legalComments: "eof",
 });
-copyFileSync("src/index.html", `${out}/index.html`);
+for (const page of ["index.html", "materials.html"]) copyFileSync(`src/${page}`, `${out}/${page}`);

@@ -140,6 +140,20 @@ fn listed(names: &[&str], most: usize) -> String {
     named.join(", ")
 }
 
+impl MaterialEntry {
+    /// What a search looks at, in lower case: id, family, group, name, aliases and state, and the other words for those in it.
+    pub fn search_text(&self) -> String {
+        let mut text = text_of(self);
+        let others = SYNONYMS.iter().filter(|(_, own)| text.contains(own));
+        let others: Vec<&str> = others.map(|(other, _)| *other).collect();
+        for other in others {
+            text += " ";
+            text += other;
+        }
+        text
+    }
+}
+
 /// The library's word for a word.
 fn synonym(word: &str) -> &str {
     let known = SYNONYMS.iter().find(|(other, _)| *other == word);
@@ -187,6 +201,34 @@ mod tests {
         );
         assert_eq!(ids("pb"), ["lead-steinberg"]);
         assert!(ids("unobtainium").is_empty() && ids("  ").is_empty());
+    }
+
+    /// What a page finds that looks for words in the texts.
+    #[test]
+    fn the_text_of_a_record_has_the_other_words_too() {
+        let by_text = |words: &str| -> Vec<&str> {
+            let held = |text: &str| {
+                words.split_whitespace().all(|word| match word.len() {
+                    0..=2 => text.split_whitespace().any(|part| part == word),
+                    _ => text.contains(word),
+                })
+            };
+            let library = Library::built_in().iter();
+            let found = library.filter(|entry| held(&entry.search_text()));
+            found.map(|entry| entry.id.as_str()).collect()
+        };
+        for words in [
+            "aluminum",
+            "al",
+            "alu 7039",
+            "armor class",
+            "pb",
+            "rha",
+            "ti64",
+        ] {
+            assert!(!ids(words).is_empty(), "{words}");
+            assert_eq!(by_text(words), ids(words), "{words}");
+        }
     }
 
     #[test]

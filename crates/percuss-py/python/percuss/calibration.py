@@ -11,7 +11,7 @@ from . import _percuss, study_plots
 from .command_line import CaseLike, Path, execute, formats, several
 from .errors import UsageError
 from .progress import Progress
-from .record import Record, Result, shown, table_html
+from .record import Record, Result, digits, shown, symbol, table_html
 from .samples import Sample
 
 if TYPE_CHECKING:
@@ -137,7 +137,7 @@ class Calibration(Result):
         return study_plots.pair(self, x, y, ax)
 
     def _headline(self) -> list[str]:
-        fitted = [f"{p.key} = {shown(p.best)} {p.unit}".strip() for p in self.parameters]
+        fitted = [f"{p.key} = {digits(p.best)} {symbol(p.unit)}".strip() for p in self.parameters]
         return [*fitted, f"model {self.model}, {self._quality()}"]
 
     def _quality(self) -> str:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _percuss, fields
 from .optional import library
+from .record import digits, in_words, units_of
 from .unit_systems import dataset, in_units
 from .values import ElementColumns, SampleColumns
 
@@ -155,7 +156,7 @@ class Profile(ElementColumns, _Rows):
         return self._native.element_column(self._index, si_name)
 
     def __repr__(self) -> str:
-        return f"<Profile at {self.time_us:.4g} us, {len(self.part)} elements>"
+        return f"<Profile at {digits(self.time_us)} µs, {len(self.part)} elements; {units_of(self.names())}>"
 
 
 class Gauge(ElementColumns, _Rows):
@@ -188,7 +189,7 @@ class Gauge(ElementColumns, _Rows):
         return self._native.gauge_column(self._index, si_name)
 
     def __repr__(self) -> str:
-        return f"<Gauge {self.name!r}, {len(self.part)} samples>"
+        return f"<Gauge {self.name!r}, {len(self.part)} samples; {units_of(['time_us', *self.names()])}>"
 
 
 class History(SampleColumns, _Rows):
@@ -230,7 +231,13 @@ class History(SampleColumns, _Rows):
         return {name: Gauge(self._native, index, name) for index, name in names}
 
     def __repr__(self) -> str:
-        return f"<History of {len(self)} samples, {self._native.profiles()} profiles>"
+        head = f"<History of {len(self)} samples, {self._native.profiles()} profiles"
+        if len(self) == 0:
+            return f"{head}>"
+        deepest = float(self.depth_mm.max())
+        # Not every run has a depth.
+        depth = f", largest {in_words('depth_mm', deepest)}" if deepest == deepest else ""
+        return f"{head}; to {digits(float(self.time_us[-1]))} µs{depth}; {units_of(self.names())}>"
 
 
 _TIME = History._fields["time_us"]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path as FilePath
 from typing import Any
 
-from .command_line import CaseLike, Path, answer, execute, formats
+from .command_line import CaseLike, Path, answer, execute, formats, several
 from .record import Record, Records
 
 
@@ -111,8 +111,13 @@ def materials(
     return Records(map(Material, records), "id", "family", "group", "name", "state", "density", "trust", "sources")
 
 
+def _names(names: tuple[str | Sequence[str], ...]) -> list[str]:
+    """Names that are given one by one, or as a list."""
+    return [name for given in names for name in several(given)]
+
+
 def flow_curves(
-    *names: str,
+    *names: str | Sequence[str],
     rate: str | Sequence[str] | None = None,
     temperature: str | None = None,
     case: CaseLike | None = None,
@@ -125,7 +130,7 @@ def flow_curves(
 
     Parameters
     ----------
-    names : str
+    names : str or sequence of str
         Ids, families or aliases.
     rate : str or sequence of str, optional
         Plastic strain rates with their units; ``"0.001 1/s"`` and ``"1000 1/s"`` when not given.
@@ -155,12 +160,12 @@ def flow_curves(
     >>> round(slow.flow_stress_mpa[0])
     90
     """
-    curves = answer("materials compare", *names, rate=rate, temperature=temperature, case=case, file=file, out=out, figures=formats(figures), figure_width=figure_width)
+    curves = answer("materials compare", *_names(names), rate=rate, temperature=temperature, case=case, file=file, out=out, figures=formats(figures), figure_width=figure_width)
     return Records(map(Record, curves), "material", "strain_rate_per_s", "temperature_k")
 
 
 def export_materials(
-    *names: str,
+    *names: str | Sequence[str],
     format: str | None = None,
     units: str | None = None,
     case: CaseLike | None = None,
@@ -171,7 +176,7 @@ def export_materials(
 
     Parameters
     ----------
-    names : str
+    names : str or sequence of str
         Ids, families or aliases.
     format : str, optional
         ``"toml"``, records as in a case file, ``"json"``, ``"csv"``, a row for each material, or ``"ls-dyna"``, cards of a deck; TOML when not
@@ -195,7 +200,7 @@ def export_materials(
     >>> print(percuss.export_materials("4340-johnson-cook", format="ls-dyna", units="mm-kg-ms").splitlines()[2])
     *MAT_JOHNSON_COOK_TITLE
     """
-    found = answer("materials export", *names, format=format, units=units, case=case, file=file, out=out)
+    found = answer("materials export", *_names(names), format=format, units=units, case=case, file=file, out=out)
     return str(found["text"])
 
 

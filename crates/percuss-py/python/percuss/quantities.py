@@ -44,24 +44,30 @@ def text(value: Any) -> str | float | list[Any] | None:
     if hasattr(value, "magnitude") and hasattr(value, "to_base_units"):
         base = value.to_base_units()
         units: Mapping[str, Any] = dict(base.unit_items())
-        return _written(base.magnitude, units, value)
+        return _written(base.magnitude, units, value, base.units != value.units)
     if hasattr(value, "unit") and hasattr(value, "value"):
         # The temperatures of astropy in degrees Celsius have no way to SI units of their own.
         absolute = {"deg_C": 273.15}.get(str(value.unit))
         if absolute is not None:
-            return _written(value.value + absolute, {"kelvin": 1}, value)
+            return _written(value.value + absolute, {"kelvin": 1}, value, True)
         base = value.si
         units = {base_unit.to_string(): power for base_unit, power in zip(base.unit.bases, base.unit.powers)}
-        return _written(base.value * base.unit.scale, units, value)
+        return _written(base.value * base.unit.scale, units, value, base.unit != value.unit)
     return None
 
 
-def _written(number: Any, units: Mapping[str, Any], value: Any) -> str | float | list[Any]:
+def _written(number: Any, units: Mapping[str, Any], value: Any, converted: bool) -> str | float | list[Any]:
     own = number.tolist() if hasattr(number, "tolist") else number
     if isinstance(own, list):
-        return [_written(item, units, value) for item in own]
+        return [_written(item, units, value, converted) for item in own]
     symbol = _symbol(units, value)
-    return f"{float(own)!r} {symbol}" if symbol else float(own)
+    si = _without_rounding(float(own)) if converted else float(own)
+    return f"{si!r} {symbol}" if symbol else si
+
+
+def _without_rounding(converted: float) -> float:
+    """A converted number to the 15 digits that the conversion keeps: 750 ft/s are 228.6 m/s, not 228.59999999999997."""
+    return float(f"{converted:.15g}")
 
 
 def _symbol(units: Mapping[str, Any], value: Any) -> str:

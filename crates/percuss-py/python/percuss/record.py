@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from . import _percuss
 from .optional import library
-from .unit_systems import dataset, in_units
+from .unit_systems import dataset, in_units, unit_of
 
 if TYPE_CHECKING:
     import pandas
@@ -203,18 +203,51 @@ def shown(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def in_words(name: str, value: float) -> str:
-    """A value with the words of its name and its unit, to three digits.
+def in_words(name: str, value: float, to: float | None = None, uncertainty: float | None = None) -> str:
+    """A value, or a range, with the words of its name and its unit, to three digits.
 
     Examples
     --------
     >>> in_words("depth_of_penetration_mm", 0.20331)
     'depth of penetration 0.203 mm'
+    >>> in_words("time_to_rest_us", 12.3456, to=28.75)
+    'time to rest 12.3 to 28.8 µs'
     """
-    for end, unit in _percuss.units():
-        if name.endswith(end):
-            return f"{name.removesuffix(end).replace('_', ' ')} {value:.3g} {unit}"
-    return f"{name.replace('_', ' ')} {value:.3g}"
+    end, unit = next(((end, unit) for end, unit in _percuss.units() if name.endswith(end)), ("", ""))
+    number = digits(value)
+    if to is not None and digits(to) != number:
+        number += f" to {digits(to)}"
+    if uncertainty is not None:
+        number += f" ± {uncertainty:.2g}"
+    return f"{name.removesuffix(end).replace('_', ' ')} {number} {symbol(unit)}".rstrip()
+
+
+def digits(value: float) -> str:
+    """A number to three digits, without an exponent below a million.
+
+    Examples
+    --------
+    >>> digits(1234.5), digits(0.0377319)
+    ('1234', '0.0377')
+    """
+    return f"{value:.0f}" if 1000 <= abs(value) < 1e6 else f"{value:.3g}"
+
+
+def symbol(unit: str) -> str:
+    """Unit as texts have it; the names of columns have ``us``."""
+    return "µs" if unit == "us" else unit
+
+
+def units_of(names: Iterable[str]) -> str:
+    """Units of columns in words, each once.
+
+    Examples
+    --------
+    >>> units_of(["time_us", "depth_mm", "step", "tip_position_mm"])
+    'units: µs, mm'
+    """
+    units = dict.fromkeys(symbol(unit_of(name)) for name in names)
+    return f"units: {', '.join(unit for unit in units if unit)}"
 
 
 def columns(rows: list[dict[str, Any]]) -> dict[str, list[Any]]:

@@ -7,11 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 from . import _percuss, fields, plots
 from .history import History
-from .record import Record, Result, in_words, shown, table_html, written
+from .record import Record, Result, digits, in_words, shown, symbol, table_html, written
 from .values import ResultValues
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+
+#: Numbers of a run that come first.
+MAIN = ("depth_of_penetration_mm", "residual_velocity_m_s", "ballistic_limit_m_s", "projectile_final_length_mm")
 
 
 class RunResult(ResultValues, Result):
@@ -93,14 +97,12 @@ class RunResult(ResultValues, Result):
             return []
         if answer.value is None:
             return [["no axisymmetric answer", answer.reason]]
-        off = "" if answer.uncertainty is None else f" ± {answer.uncertainty:.2g}"
-        return [[f"axisymmetric {answer.quantity}", f"{shown(answer.value)}{off} ({len(answer.meshes)} meshes)"]]
+        return [["axisymmetric", f"{in_words(answer.quantity, answer.value, uncertainty=answer.uncertainty)} ({len(answer.meshes)} meshes)"]]
 
     def _headline(self) -> list[str]:
         words = [self.outcome.replace("_", " ")]
         words += [f"{label} {value}" for label, value in self._answer()]
-        main = ("depth_of_penetration_mm", "residual_velocity_m_s", "ballistic_limit_m_s", "projectile_final_length_mm")
-        words += [in_words(name, self._data[name]) for name in main if self._data[name] is not None][:2]
+        words += [in_words(name, self._data[name]) for name in MAIN if self._data[name] is not None][:2]
         warned = len(self.warnings)
         return [*words, f"case {self.case}, model {self.model}", *([f"{warned} warning{'s' * (warned > 1)}"] if warned else [])]
 
@@ -239,7 +241,7 @@ class Limits(Result):
             words.append(f"case {self.case}")
         if self.v50 is not None:
             known = [e for e in self.v50.estimates if e.v50_m_s is not None]
-            words += [f"V50 {shown(e.v50_m_s)} m/s by {e.method.replace('_', ' ')}" for e in known[:1]]
+            words += [f"V50 {digits(e.v50_m_s)} m/s by {e.method.replace('_', ' ')}" for e in known[:1]]
             words.append(f"{self.v50.tests} tests")
         return words
 
@@ -290,7 +292,7 @@ class Convergence(Result):
     def _headline(self) -> list[str]:
         (first, *_) = self.quantities
         kind = shown(first.status._data.get("kind")).replace("_", " ")
-        return [f"{first.name.replace('_', ' ')} {shown(first.values[-1])} {first.unit} on the finest mesh", kind, f"{len(self.meshes)} meshes"]
+        return [f"{first.name.replace('_', ' ')} {digits(first.values[-1])} {symbol(first.unit)} on the finest mesh", kind, f"{len(self.meshes)} meshes"]
 
     def _details_html(self) -> str:
         rows = self._rows()

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from . import _percuss
 from .history import _Columns
+from .record import units_of
 
 if TYPE_CHECKING:
     import pandas
@@ -52,4 +53,4 @@ class Sample(_Columns):
         return self._native.rows()
 
     def __repr__(self) -> str:
-        return f"<Sample of {len(self)} rows, {len(self.names())} columns>"
+        return f"<Sample of {len(self)} rows, {len(self.names())} columns; {units_of(self.names())}>"

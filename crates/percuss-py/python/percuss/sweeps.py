@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Any
 from . import _percuss, cluster, laws, plots
 from .command_line import Path, answer, execute, formats, several
 from .case import Case
-from .errors import UsageError
+from .errors import LibraryError, UsageError
 from .laws import StrengthLaw
 from .progress import Progress, watching
 from .optional import library
-from .record import CommandRecord, Record, table_html
+from .record import CommandRecord, Record, in_words, table_html, units_of
+from .results import MAIN
 from .unit_systems import dataset, in_units
 
 if TYPE_CHECKING:
@@ -87,8 +88,33 @@ class SweepResult:
         return plots.sweep(self, x, y, colour, ax)
 
     def __repr__(self) -> str:
-        status = self.status
-        return f"<SweepResult {self.folder}, {status.runs_done} of {status.manifest.runs} runs>"
+        return f"<SweepResult {self.folder}; {'; '.join(self._headline())}>"
+
+    def _headline(self) -> list[str]:
+        """What matters, in words."""
+        status, manifest = self.status, self.manifest
+        head = f"{status.runs_done} of {manifest.runs} runs, model {manifest.model}, design {manifest.design}"
+        return [head, *self._ranges(), units_of(column.name for column in manifest.columns)]
+
+    def _ranges(self) -> list[str]:
+        """Smallest and largest main numbers of the rows in words; none without pyarrow."""
+        try:
+            parquet = library("pyarrow.parquet")
+        except LibraryError:
+            return []
+        import numpy
+
+        held = [column.name for column in self.manifest.columns]
+        words: list[str] = []
+        for name in (name for name in MAIN if name in held):
+            if len(words) == 2:
+                break
+            values = [parquet.read_table(file, columns=[name])[name].to_numpy() for file in self.files()]
+            numbers = numpy.concatenate([numpy.asarray(column, dtype=float) for column in values]) if values else numpy.array([])
+            numbers = numbers[~numpy.isnan(numbers)]
+            if len(numbers):
+                words.append(in_words(name, numbers.min(), numbers.max()))
+        return words
 
     def _repr_html_(self) -> str:
         status, manifest = self.status, self.manifest
@@ -97,6 +123,7 @@ class SweepResult:
             ["runs", f"{status.runs_done} of {manifest.runs}"],
             ["model", manifest.model],
             ["design", manifest.design],
+            *(["results", words] for words in self._ranges()),
             ["columns", ", ".join(column.name for column in manifest.columns)],
         ]
         return table_html(["", ""], rows, manifest.title or manifest.case)

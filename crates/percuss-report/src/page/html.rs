@@ -31,7 +31,7 @@ pub fn render(page: &[Block<'_>]) -> String {
     writer.blocks(page);
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, \
-         initial-scale=1\">\n<title>{}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
+         initial-scale=1\">\n<title>{}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
         title.unwrap_or_default(),
         writer.text
     )
@@ -80,14 +80,6 @@ impl Writer {
                 }
                 self.text += "</ul>\n";
             }
-            Block::Links(links) => {
-                self.text += "<ul>\n";
-                for (address, text) in links {
-                    let (address, text) = (escape(address), escape(text));
-                    self.text += &format!("<li><a href=\"{address}\">{text}</a></li>\n");
-                }
-                self.text += "</ul>\n";
-            }
             Block::Table(table) => self.table(table),
             Block::Figure(figure) => {
                 self.figures += 1;
@@ -119,7 +111,7 @@ impl Writer {
 
     fn table(&mut self, table: &Table) {
         let class = |number: bool| if number { " class=\"n\"" } else { "" };
-        self.text += "<div class=\"wide\"><table>\n<thead><tr>";
+        self.text += "<div class=\"wide\" tabindex=\"0\"><table>\n<thead><tr>";
         for column in &table.columns {
             let (class, title) = (class(column.numbers), escape(&column.title()));
             self.text += &format!("<th{class}>{title}</th>");

@@ -22,12 +22,6 @@ fn block(block: &Block<'_>) -> Option<String> {
                 .collect();
             items.join("\n")
         }
-        Block::Links(links) => {
-            let links = links
-                .iter()
-                .map(|(address, text)| format!("- [{}]({address})", escape(text)));
-            links.collect::<Vec<_>>().join("\n")
-        }
         Block::Table(table) => self::table(table),
         Block::Figure(figure) => format!(
             "![{0}]({1}.{IN_PAGES})\n\n*{0}*",

@@ -54,8 +54,6 @@ pub enum Block<'a> {
     Text(String),
     /// A list.
     List(Vec<String>),
-    /// Links with their texts.
-    Links(Vec<(String, String)>),
     /// A table.
     Table(Table),
     /// A figure.

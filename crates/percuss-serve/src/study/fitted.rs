@@ -16,7 +16,7 @@ use percuss::{
     case::Document,
     units::shorten,
 };
-use percuss_report::calibration;
+use percuss_report::{calibration, parameter_label};
 use serde_json::json;
 
 use super::{Job, Study, csv_files, runs::watched};
@@ -111,7 +111,12 @@ pub(super) fn fitted(job: &Job<'_>) -> Result<Study, Problem> {
         .collect();
     let charts = calibration::charts(&found.calibration);
     let pictures = calibration::sample_figures(&found.calibration);
-    let record = json!({ "calibration": found, "material": found.toml() });
+    let parameters = &found.calibration.parameters;
+    let labels: Vec<String> = parameters
+        .iter()
+        .map(|parameter| parameter_label(&parameter.key, &parameter.unit))
+        .collect();
+    let record = json!({ "calibration": found, "labels": labels, "material": found.toml() });
     Ok(Study::new(record, &charts, files).with_pictures(pictures))
 }
 

@@ -1,9 +1,11 @@
 //! Ballistic limits.
 
 use percuss::{
+    Scenario,
     axisymmetric::{BUDGET, Request},
     limit::{self, RearFace, Search},
     model,
+    problem::RearFaceCondition,
 };
 use percuss_report::{axisymmetric_limit, limit_chart, limit_files, limit_headline};
 use serde_json::json;
@@ -13,6 +15,9 @@ use crate::{events::pretty, problem::Problem};
 
 pub(super) fn limits(job: &Job<'_>) -> Result<Study, Problem> {
     let scenario = job.scenario()?;
+    let freed = with_freed_rear_face(&scenario);
+    let is_freed = freed.is_some();
+    let scenario = freed.unwrap_or(scenario);
     let mut report =
         |now: limit::Progress| job.go_on(now.fraction, &format!("{} runs", now.finished));
     let mut watch = limit::Observer {
@@ -49,8 +54,21 @@ pub(super) fn limits(job: &Job<'_>) -> Result<Study, Problem> {
         "measured": limits.measured().map(|(value, _)| value),
         "limits": limits,
         "outcomes": outcomes,
+        "freed": is_freed,
         "rear_face": limits.rear_face.and_then(RearFace::describe),
         "expected": expected,
     });
     Ok(Study::new(record, chart.as_slice(), files))
+}
+
+/// The case with a free rear face where it fixes that of a plate, which nothing can perforate; `None` for other cases.
+fn with_freed_rear_face(scenario: &Scenario) -> Option<Scenario> {
+    if !scenario.given.rear_face || scenario.rear_face() != Some(RearFaceCondition::Fixed) {
+        return None;
+    }
+    let mut open = scenario.clone();
+    open.given.rear_face = false;
+    let mut freed = limit::with_free_rear_face(&open)?;
+    freed.given.rear_face = true;
+    Some(freed)
 }

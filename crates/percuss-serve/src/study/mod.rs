@@ -1,6 +1,7 @@
 //! Studies of a case: models side by side, convergence with the mesh, ballistic limits, sweeps, uncertainty, calibration, and runs in
 //! two dimensions.
 
+mod calibration_example;
 mod compared;
 mod converged;
 mod fitted;
@@ -139,6 +140,27 @@ pub(crate) async fn uncertainty_example(
     let text = workers.run(move |_| {
         let read = asked.read(asked.edited()?)?;
         Ok(uncertain_example::with_example(&read.text, &read.scenario))
+    });
+    match text.await {
+        Ok(text) => http::json(StatusCode::OK, &json!({ "case": text })),
+        Err(problem) => problem.into_response(),
+    }
+}
+
+/// `POST /api/calibration-example`: the text of a case with an example of measured values in it.
+pub(crate) async fn calibration_example(
+    State(workers): State<Workers>,
+    request: Request,
+) -> Response {
+    let asked: CaseRequest = match request::read(request).await {
+        Ok(asked) => asked,
+        Err(problem) => return problem.into_response(),
+    };
+    let bounds = *workers.bounds();
+    let text = workers.run(move |stop| {
+        let ReadCase { text, scenario } = asked.read(asked.edited()?)?;
+        let chosen = asked.model(&scenario, &bounds)?;
+        calibration_example::with_example(&text, &scenario, &chosen, stop)
     });
     match text.await {
         Ok(text) => http::json(StatusCode::OK, &json!({ "case": text })),

@@ -7,7 +7,10 @@ use percuss::{
     outcome::Outcome,
     sweep::{Axis, Sweep, SweepRow},
 };
-use percuss_report::sweep::{PlotStyle, charts, numbers, parallel_figure, rows_csv};
+use percuss_report::{
+    parameter_label,
+    sweep::{PlotStyle, charts, numbers, parallel_figure, rows_csv},
+};
 use serde_json::{Value, json};
 
 use super::{
@@ -81,7 +84,10 @@ pub(super) fn swept(job: &Job<'_>) -> Result<Study, Problem> {
 }
 
 fn parameter(axis: &Axis) -> Value {
-    json!({ "key": axis.key, "unit": axis.unit, "words": axis.words().unwrap_or_default() })
+    json!({
+        "label": parameter_label(&axis.key, &axis.unit),
+        "words": axis.words().unwrap_or_default(),
+    })
 }
 
 /// The numbers that come of the runs, with the values of the rows that are shown.

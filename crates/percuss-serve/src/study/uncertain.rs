@@ -4,7 +4,7 @@ use percuss::{
     case::Document,
     uncertainty::{self, MIN_SAMPLES, Settings},
 };
-use percuss_report::{uncertainty_charts, uncertainty_files};
+use percuss_report::{parameter_label, uncertainty_charts, uncertainty_files};
 use serde_json::{Value, json};
 
 use super::{
@@ -52,7 +52,8 @@ pub(super) fn uncertain(job: &Job<'_>) -> Result<Study, Problem> {
         .chain([("uncertainty.json".to_owned(), pretty(&found))])
         .collect();
     let quantities: Vec<Value> = found.quantities.iter().map(quantity).collect();
-    let labels: Vec<&str> = found.inputs.iter().map(|i| i.label.as_str()).collect();
+    let inputs = found.inputs.iter();
+    let labels: Vec<String> = inputs.map(|i| parameter_label(&i.key, "")).collect();
     let record = json!({
         "uncertainty": found,
         "quantities": quantities,

@@ -158,3 +158,29 @@ fn limits_are_those_of_the_library_and_say_what_they_rest_on() {
         "{said:?}"
     );
 }
+
+#[test]
+fn a_fixed_rear_face_is_freed_for_the_limit_and_the_answer_says_so() {
+    let served = Served::new(Options::default());
+    let case = |back: &str| {
+        let text = format!(
+            "projectile = {{ material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', impact_velocity = '300 m/s' }}\n\
+             target = {{ material = 'aluminium-2024-t351', thickness = '12 mm', back_face = '{back}' }}\n\
+             chain = {{ projectile_elements = 8, target_elements = 6 }}\n\
+             fdm = {{ projectile_elements = 8, target_elements = 6 }}\n"
+        );
+        let answer = served.post("/api/study/limit", &json!({ "name": "shot", "case": text }));
+        answer.lines().pop().unwrap()["done"].clone()
+    };
+    let (fixed, free) = (case("fixed"), case("free"));
+    assert_eq!(
+        (&fixed["freed"], &free["freed"]),
+        (&json!(true), &json!(false))
+    );
+    assert_eq!(fixed["limits"]["results"], free["limits"]["results"]);
+    let limits = fixed["limits"]["results"].as_array().unwrap();
+    assert!(
+        limits.iter().any(|limit| limit["outcome"] == "found"),
+        "{limits:?}"
+    );
+}

@@ -1,11 +1,12 @@
 // Calibration: parameters of a case fitted to its experiments and measured curves.
 
-import { make, significant, table } from "./dom";
+import { post } from "./api";
+import { figure, make, significant, table, withUnit } from "./dom";
 import { labelled, options, type Kind, type Page } from "./panel";
 import { Parameters, type Numbers } from "./parameters";
 import type { Calibrated, Marginal, Quality } from "./types";
 
-const number = (value: number | null | undefined, digits = 4) => (value == null ? "–" : significant(value, digits));
+const number = (value: number | null | undefined, digits = 3) => (value == null ? "–" : significant(value, digits));
 const percent = (part: number | null | undefined) => (part == null ? "–" : significant(100 * part, 3));
 const list = (items: string[]) => make("ul", {}, ...items.map((words) => make("li", {}, words)));
 
@@ -43,6 +44,7 @@ export function calibration(page: Page, numbers: Numbers): Kind {
       },
     }),
     show: (done) => show(done as Calibrated),
+    prepare: () => prepare(page),
     example: {
       name: "taylor-copper-wilkins",
       about: "Four Taylor tests of copper rods, to which the first strength constant is fitted.",
@@ -74,18 +76,18 @@ function show(done: Calibrated): HTMLElement[] {
 const marginal = (of: Marginal | null, factor = 1) =>
   of ? [`${number(factor * of.quantiles[0])} … ${number(factor * of.quantiles[2])}`, of.r_hat.toFixed(3), of.bulk_effective_size.toFixed(0), of.tail_effective_size.toFixed(0)] : ["–", "–", "–", "–"];
 
-function parameterTable({ calibration: found }: Calibrated): HTMLElement {
+function parameterTable({ calibration: found, labels }: Calibrated): HTMLElement {
   const sampled = found.sampling !== null;
   const head = ["parameter", "prior 95 %", "best", "± error", ...(sampled ? ["posterior 95 %", "R-hat", "bulk size", "tail size"] : [])];
-  const lines = found.parameters.map((p) => [
-    p.unit ? `${p.key} [${p.unit}]` : p.key,
+  const lines: (string | Node)[][] = found.parameters.map((p, i) => [
+    labels[i] ?? p.key,
     `${number(p.prior[0])} … ${number(p.prior[2])}`,
-    number(p.best, 5),
-    number(p.standard_error, 2),
+    figure(p.best),
+    figure(p.standard_error, 2),
     ...(sampled ? marginal(p.posterior) : []),
   ]);
   const { scatter } = found;
-  lines.push(["scatter [%]", scatter.estimated ? "" : "given", percent(scatter.best), "", ...(sampled ? marginal(scatter.posterior, 100) : [])]);
+  lines.push(["scatter (%)", scatter.estimated ? "" : "given", percent(scatter.best), "", ...(sampled ? marginal(scatter.posterior, 100) : [])]);
   return table(head, lines);
 }
 
@@ -104,7 +106,7 @@ function qualityTable({ calibration: found }: Calibrated): HTMLElement {
   const line = (name: string, q: Quality) =>
     [name, String(q.count), percent(q.rms_before), percent(q.rms), percent(q.bias), ...(sampled ? [String(q.inside ?? "–")] : [])];
   const lines = [...(found.training ? [line("fitted", found.training)] : []), ...(found.hold_out ? [line("held out", found.hold_out)] : [])];
-  return table(["measured values", "count", "RMS before [%]", "RMS [%]", "bias [%]", ...(sampled ? ["in the 95 % interval"] : [])], lines);
+  return table(["measured values", "count", "RMS before (%)", "RMS (%)", "bias (%)", ...(sampled ? ["in the 95 % interval"] : [])], lines);
 }
 
 // Differences from the measured curves.
@@ -112,14 +114,14 @@ function curveTable({ calibration: found }: Calibrated): HTMLElement {
   const lines = found.curves.map((c) => [
     `${c.id}${c.held_out ? " (held out)" : ""}`,
     String(c.values),
-    number(c.effective_values),
-    number(c.correlation_time_us, 2),
-    c.unit,
-    number(c.before?.rms_difference ?? null),
-    number(c.best?.rms_difference ?? null),
+    figure(c.effective_values),
+    figure(c.correlation_time_us, 2),
+    c.unit === "us" ? "µs" : c.unit,
+    figure(c.before?.rms_difference),
+    figure(c.best?.rms_difference),
     percent(c.best?.relative_rms_difference ?? null),
   ]);
-  const head = ["measured curve", "values", "effective number", "correlation time [µs]", "unit", "RMS difference before", "RMS difference", "relative [%]"];
+  const head = ["measured curve", "values", "effective number", "correlation time (µs)", "unit", "RMS difference before", "RMS difference", "relative (%)"];
   return table(head, lines);
 }
 
@@ -128,13 +130,21 @@ function predictions({ calibration: found }: Calibrated): HTMLElement {
   const sampled = found.sampling !== null;
   const lines = found.predictions.map((p) => [
     `${p.id}${p.held_out ? " (held out)" : ""}`,
-    `${p.quantity.replace(/_(mm|m_s)$/, "").replaceAll("_", " ")} [${p.unit}]`,
-    number(p.impact_velocity_m_s),
-    number(p.measured),
-    number(p.before),
-    number(p.best),
+    withUnit(p.quantity.replace(/_(mm|m_s)$/, "").replaceAll("_", " "), p.unit),
+    figure(p.impact_velocity_m_s),
+    figure(p.measured),
+    figure(p.before),
+    figure(p.best),
     ...(sampled ? [p.predictive_band ? `${number(p.predictive_band[0])} … ${number(p.predictive_band[1])}` : "–"] : []),
   ]);
-  const head = ["value", "quantity", "impact velocity [m/s]", "measured", "before calibration", "calibrated", ...(sampled ? ["95 % interval"] : [])];
+  const head = ["value", "quantity", "impact velocity (m/s)", "measured", "before calibration", "calibrated", ...(sampled ? ["95 % interval"] : [])];
   return make("details", { open: "" }, make("summary", {}, "Measured and predicted values"), table(head, lines, [1]));
+}
+
+// Gives a case without measured values an example of them.
+async function prepare(page: Page): Promise<string | null> {
+  if (page.hasMeasured()) return null;
+  const done = await post<{ case: string }>("/api/calibration-example", page.request());
+  await page.insert(done.case);
+  return "The case had no measured values: an example is now at the end of its text, computed numbers that were changed. Replace them by your own, then press Calibrate. Undo removes them.";
 }

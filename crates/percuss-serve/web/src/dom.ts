@@ -9,7 +9,9 @@ export function make<K extends keyof HTMLElementTagNameMap>(
 ): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-  element.append(...children.filter((child): child is Node | string => child !== null));
+  // Files keep the `us` that they are written with.
+  const typeset = (child: Node | string) => (typeof child === "string" && tag !== "pre" ? micro(child) : child);
+  element.append(...children.filter((child): child is Node | string => child !== null).map(typeset));
   return element;
 }
 
@@ -25,8 +27,25 @@ export function button(text: string, action: () => void): HTMLButtonElement {
   return element;
 }
 
+// The sign of microseconds, which are `us` in files and in the terminal.
+export function micro(text: string): string {
+  return text.replace(/(\d) us\b/g, "$1 µs");
+}
+
+// Number of a table, to three significant digits: the whole number is shown where the pointer rests. A dash without one.
+export function figure(value: number | null | undefined, digits = 3): string | HTMLElement {
+  if (value == null) return "–";
+  const shown = significant(value, digits);
+  return shown === String(value) ? shown : make("data", { value: String(value), title: String(value) }, shown);
+}
+
+// Label with its unit in parentheses.
+export function withUnit(label: string, unit: string): string {
+  return unit ? `${label} (${unit === "us" ? "µs" : unit})` : label;
+}
+
 // At most `digits` significant digits, no trailing zeros, no exponent for ordinary numbers.
-export function significant(value: number, digits = 4): string {
+export function significant(value: number, digits = 3): string {
   if (!Number.isFinite(value) || value === 0) return String(value);
   const size = Math.floor(Math.log10(Math.abs(value)));
   if (size < -4 || size > 8) return String(Number(value.toPrecision(digits)));

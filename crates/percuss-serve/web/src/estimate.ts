@@ -1,6 +1,6 @@
 // Card of the axisymmetric answer: its number with the uncertainty, how that shrinks from mesh to mesh, and the one-dimensional number.
 
-import { make, pairs, significant } from "./dom";
+import { bring, get, make, micro, pairs, significant } from "./dom";
 import { rows } from "./rows";
 import type { Answer, Plan, Problem, Refined, RowChart } from "./types";
 
@@ -16,6 +16,8 @@ export class Estimate {
   private chart = make("div");
   private details = make("dl");
   private more = make("details", {}, make("summary", {}, "Meshes and limit"), this.details);
+  private link = make("a", { href: "#warnings" });
+  private warned = make("p", { class: "warned" });
   private words = make("p", { class: "note", role: "status" });
   private bar = make("progress", { max: "1", value: "0", "aria-label": "Progress: axisymmetric answer" });
   private progressWords = make("span", { class: "soft" });
@@ -26,8 +28,24 @@ export class Estimate {
 
   constructor() {
     const title = make("h2", { id: "refined-title" }, "Axisymmetric answer");
-    this.element = make("section", { id: "refined", "aria-labelledby": "refined-title" }, title, this.headline, this.words, this.running, this.chart, this.more);
+    this.element = make("section", { id: "refined", "aria-labelledby": "refined-title" }, title, this.headline, this.warned, this.words, this.running, this.chart, this.more);
+    this.warned.hidden = true;
+    this.link.addEventListener("click", (event) => {
+      // The address holds the case: it stays.
+      event.preventDefault();
+      const box = get<HTMLDetailsElement>("warnings");
+      box.open = true;
+      bring(box);
+      box.querySelector("summary")?.focus({ preventScroll: true });
+    });
     this.idle();
+  }
+
+  // Warnings of the run of a model, which stand further below.
+  warn(count: string | null, model: string): void {
+    this.warned.hidden = count === null;
+    this.link.textContent = count;
+    this.warned.replaceChildren(this.link, ` of the run by ${model}`);
   }
 
   begin(plan: Plan): void {
@@ -77,7 +95,7 @@ export class Estimate {
     this.element.classList.remove("stale");
     this.headline.replaceChildren();
     this.chart.replaceChildren();
-    this.words.textContent = `No axisymmetric answer: ${reason}${remedy ? `; ${remedy}` : ""}.`;
+    this.words.textContent = micro(`No axisymmetric answer: ${reason}${remedy ? `; ${remedy}` : ""}.`);
     this.idle();
   }
 
@@ -85,7 +103,7 @@ export class Estimate {
   problem({ message, help }: Problem): boolean {
     const has = this.stages.length > 0 && !this.element.classList.contains("stale");
     if (!has) this.none(message, help || null);
-    else this.words.textContent = `${message}${help ? `; ${help}` : ""}.`;
+    else this.words.textContent = micro(`${message}${help ? `; ${help}` : ""}.`);
     this.idle();
     return has;
   }
@@ -102,7 +120,7 @@ export class Estimate {
     if (own) shown.push([`one-dimensional (${own.model})`, own.words]);
     this.headline.replaceChildren(...pairs(shown));
     const limit = last.rows.find(([label]) => label === "limit")?.[1] ?? "";
-    this.words.textContent = [last.uncertainty === null ? limit : "", last.note ?? ""].filter(Boolean).join("; ");
+    this.words.textContent = micro([last.uncertainty === null ? limit : "", last.note ?? ""].filter(Boolean).join("; "));
     this.details.replaceChildren(...pairs(last.rows));
     this.more.hidden = last.rows.length === 0;
     this.chart.replaceChildren(...this.history(own?.value ?? null));

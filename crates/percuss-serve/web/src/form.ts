@@ -1,6 +1,7 @@
 // Form of the case, made from the description of the keys; every change is an edit of the text.
 
-import { get, make, significant } from "./dom";
+import { get, make, micro, significant } from "./dom";
+import { holds } from "./words";
 import type { Field, Start, Unit, Value, Values } from "./types";
 
 // A key and its new value as TOML writes it; none removes the key.
@@ -24,7 +25,14 @@ export function shown(value: Value | undefined): string {
 }
 
 // Field: elements that follow the values of the case.
-interface Control { element: HTMLElement; input: HTMLElement; show(values: Values): void; present(values: Values): boolean }
+interface Control {
+  element: HTMLElement;
+  input: HTMLElement;
+  show(values: Values): void;
+  present(values: Values): boolean;
+  // The default of the case, where it depends on the rest of it.
+  inUse?(value: string): void;
+}
 
 export class Form {
   private controls: { key: string; control: Control }[] = [];
@@ -36,7 +44,7 @@ export class Form {
   }
 
   // Follows the case; what the user is typing in stays as it is.
-  show(values: Values, model: string): void {
+  show(values: Values, model: string, inUse?: Record<string, string>): void {
     this.values = values;
     const layers = layersOf(values);
     const shape = JSON.stringify([model, layers, Object.keys(values).filter((key) => key.startsWith("materials."))]);
@@ -44,7 +52,9 @@ export class Form {
       this.build(model, layers);
       this.built = shape;
     }
-    for (const { control } of this.controls) {
+    for (const { key, control } of this.controls) {
+      const used = inUse?.[key];
+      if (used !== undefined) control.inUse?.(used);
       control.show(values);
       control.element.hidden = !control.present(values);
     }
@@ -112,24 +122,28 @@ export class Form {
 
   private material(field: Field, id: string, frame: HTMLElement, edit: Change) {
     const input = make("select", { id });
+    const find = make("input", { type: "search", placeholder: "find", autocomplete: "off", spellcheck: "false", "aria-label": `Find a material: ${frame.textContent}` });
     const card = make("a", { target: "_blank", rel: "noopener" }, "sources");
     const own = new Set(Object.keys(this.values).map((key) => /^materials\.([^.]+)\./.exec(key)?.[1]).filter((name) => name !== undefined));
-    const option = (value: string, words: string) => make("option", { value }, words);
-    const families = new Map<string, HTMLElement[]>();
-    for (const material of this.start.materials) {
-      const family = material.family ?? "other";
-      const list = families.get(family) ?? [];
-      if (material.recommended && material.family) list.unshift(option(material.family, `${material.family} ★`));
-      list.push(option(material.id, `${material.id} (${material.trust})`));
-      families.set(family, list);
-    }
-    if (own.size) input.append(make("optgroup", { label: "this case" }, ...[...own].map((name) => option(name, name))));
-    for (const [family, list] of [...families].sort()) input.append(make("optgroup", { label: family }, ...list));
-    frame.append(input, card);
+    frame.append(input, find, card);
     input.addEventListener("input", () => edit(quoted(input.value)));
+    // The materials that are found, and the chosen one.
+    const list = () => input.replaceChildren(...this.choices(find.value, input.value, own));
+    find.addEventListener("input", list);
+    find.addEventListener("keydown", (event) => {
+      if (event.key === "Escape") find.value = "";
+      else if (event.key !== "Enter") return;
+      event.preventDefault();
+      const first = find.value.trim() === "" ? undefined : this.choices(find.value, "", own)[0]?.querySelector("option");
+      find.value = "";
+      list();
+      if (!first) return;
+      input.value = first.value;
+      edit(quoted(first.value));
+    });
     const show = (values: Values) => {
       const name = shown(values[field.key]);
-      if (![...input.options].some((known) => known.value === name)) input.append(option(name, name));
+      if (![...input.options].some((known) => known.value === name)) input.replaceChildren(...this.choices(find.value, name, own));
       input.value = name;
       card.href = `/materials/${encodeURIComponent(name)}`;
       card.hidden = own.has(name);
@@ -138,7 +152,28 @@ export class Form {
     };
     return { element: frame, input, show };
   }
+
+  // Materials with all words, by their families; the one that is chosen is always there.
+  private choices(words: string, chosen: string, own: Set<string>): HTMLElement[] {
+    const families = new Map<string, HTMLElement[]>();
+    const names = [...own].filter((name) => holds(name.toLowerCase(), words) || name === chosen);
+    if (names.length) families.set("this case", names.map((name) => make("option", { value: name }, name)));
+    for (const material of [...this.start.materials].sort((a, b) => compare(a.family ?? "other", b.family ?? "other"))) {
+      const family = material.family ?? "other";
+      const byFamily = material.recommended && material.family !== null;
+      const found = holds(material.words, words);
+      const options = families.get(family) ?? [];
+      if (byFamily && (found || chosen === family)) options.unshift(make("option", { value: family }, `${family} ★`));
+      if (found || chosen === material.id) options.push(make("option", { value: material.id }, `${material.id} (${material.trust})`));
+      if (options.length) families.set(family, options);
+    }
+    const known = [...families.values()].flat().some((option) => option.getAttribute("value") === chosen);
+    if (!known && chosen !== "") families.set("named by the case", [make("option", { value: chosen }, chosen)]);
+    return [...families].map(([family, list]) => make("optgroup", { label: family }, ...list));
+  }
 }
+
+const compare = (a: string, b: string) => (a < b ? -1 : Number(a > b));
 
 // Layers that a case has in a list.
 export function layersOf(values: Values): number {
@@ -173,10 +208,17 @@ function rangeOf(field: Field, si: number): [number, number] {
   return [Math.min(low, si), Math.max(high, si)];
 }
 
-// Text of the default.
+// Default as the field shows it: its value, where there is one.
+const asDefault = (value: string) => `${micro(value)} (default)`;
+
 function ofDefault(field: Field): string {
-  return field.default === null ? "default" : `default: ${field.default.replaceAll('"', "")}`;
+  return field.default === null ? "default" : asDefault(field.default.replaceAll('"', ""));
 }
+
+// Shows the default of a case in an empty field.
+const inUse = (input: HTMLInputElement) => (value: string) => {
+  input.placeholder = asDefault(value);
+};
 
 function quantity(field: Field, id: string, frame: HTMLElement, edit: Change) {
   const units = field.units ?? [];
@@ -235,7 +277,7 @@ function quantity(field: Field, id: string, frame: HTMLElement, edit: Change) {
       range.setAttribute("aria-valuetext", text);
     }
   };
-  return { element: frame, input, show };
+  return { element: frame, input, show, inUse: inUse(input) };
 }
 
 function number(field: Field, id: string, frame: HTMLElement, edit: Change) {
@@ -261,7 +303,7 @@ function number(field: Field, id: string, frame: HTMLElement, edit: Change) {
       range.value = String(Math.round((STEPS * (Number(text) - limits[0])) / (limits[1] - limits[0])));
     }
   };
-  return { element: frame, input, show };
+  return { element: frame, input, show, inUse: inUse(input) };
 }
 
 // One of a few values, each as TOML writes it; `written` writes the value of a case in the same way.
@@ -276,7 +318,8 @@ function choice(
   const input = make("select", { id });
   const words = (toml: string) => toml.replaceAll('"', "").replace(/^\{ (\w+) = .*\}$/, "$1").replaceAll("_", " ");
   const optional = !["projectile.material", "target.material"].includes(field.key);
-  if (optional) input.append(make("option", { value: "" }, ofDefault(field)));
+  const none = make("option", { value: "" }, ofDefault(field));
+  if (optional) input.append(none);
   input.append(...choices.map((toml) => make("option", { value: toml }, words(toml))));
   input.addEventListener("input", () => edit(input.value === "" ? null : input.value));
   frame.append(input);
@@ -288,7 +331,10 @@ function choice(
     });
     input.value = inside ?? written(values[field.key]);
   };
-  return { element: frame, input, show };
+  const inUse = (value: string) => {
+    none.textContent = asDefault(value);
+  };
+  return { element: frame, input, show, inUse };
 }
 
 function text(field: Field, id: string, frame: HTMLElement, edit: Change) {
@@ -298,5 +344,5 @@ function text(field: Field, id: string, frame: HTMLElement, edit: Change) {
   const show = (values: Values) => {
     if (!isFocused(input)) input.value = shown(values[field.key]);
   };
-  return { element: frame, input, show };
+  return { element: frame, input, show, inUse: inUse(input) };
 }

@@ -120,14 +120,16 @@ function show(answer: Answer, since: number | null, draft: boolean): void {
   form.mark("");
   model = answer.model;
   models.value = answer.model;
-  form.show(answer.values, answer.model);
+  form.show(answer.values, answer.model, draft ? undefined : answer.in_use);
   get("own-title").textContent = `Numbers of model ${answer.model}`;
   get("numbers").replaceChildren(...pairs(answer.rows[0]));
   get("more-numbers").querySelector("dl")?.replaceChildren(...pairs([...answer.rows[1], ...answer.rows[2]]));
   const warnings = answer.results.results[0]?.warnings ?? [];
   const box = get<HTMLDetailsElement>("warnings");
   box.hidden = warnings.length === 0;
-  box.querySelector("summary")!.textContent = warnings.length === 1 ? "1 warning" : `${warnings.length} warnings`;
+  const count = warnings.length === 1 ? "1 warning" : `${warnings.length} warnings`;
+  box.querySelector("summary")!.textContent = count;
+  refinement.warn(warnings.length ? count : null, answer.model);
   box.querySelector("ul")!.replaceChildren(...warnings.map((words) => make("li", {}, words)));
   values = answer.values;
   if (draft) for (const chart of answer.charts) views.get(chart.name)?.show(chart);
@@ -154,7 +156,7 @@ function showCharts(answer: Answer): void {
     if (!view) {
       const file = `${chart.name}.svg`;
       const action = button("SVG", () => void take(file));
-      action.setAttribute("aria-label", `Download the figure: ${chart.title}`);
+      action.setAttribute("aria-label", `SVG of the figure: ${chart.title}`);
       view = new ChartView([action]);
       views.set(chart.name, view);
     }
@@ -269,6 +271,7 @@ function build(): void {
   });
   const page = {
     request: () => ({ name, case: text.value, model: model ?? models.value }),
+    hasMeasured: () => Object.keys(values).some((key) => /^(experiments|measured_curves)\./.test(key)),
     hasUncertainty: () => Object.keys(values).some((key) => key.startsWith("uncertainty.")),
     insert: (example: string) => {
       text.value = example;

@@ -10,6 +10,7 @@ import type { Chart, Problem, Study } from "./types";
 export interface Page {
   request(): { name: string; case: string; model: string };
   hasUncertainty(): boolean;
+  hasMeasured(): boolean;
   // Another text of the case; done when its answer is shown.
   insert(text: string): Promise<void>;
   // Loads a ready case; done when its answer is shown.
@@ -114,7 +115,7 @@ export function panel(kind: Kind, views: Views, page: Page): HTMLElement {
     const text = files[name];
     if (text === undefined) return [];
     const action = button("SVG", () => save(name, text));
-    action.setAttribute("aria-label", `Download the figure: ${chart.title}`);
+    action.setAttribute("aria-label", `SVG of the figure: ${chart.title}`);
     return [action];
   }
 

@@ -38,6 +38,11 @@ export class Refinement {
     this.timer = window.setTimeout(() => void this.run(asked), REST_MS);
   }
 
+  // Shows how many warnings the one-dimensional run has.
+  warn(count: string | null, model: string): void {
+    this.estimate.warn(count, model);
+  }
+
   // Name and number of the answer so far.
   get answer(): [string, string] | null {
     return this.estimate.answer;

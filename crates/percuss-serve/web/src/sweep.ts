@@ -1,6 +1,6 @@
 // Sweep: a case with one or two parameters varied.
 
-import { make, significant, table } from "./dom";
+import { figure, make, table } from "./dom";
 import { labelled, options, type Kind, type Page } from "./panel";
 import { Parameters, type Numbers } from "./parameters";
 import type { Chart, Swept, Study } from "./types";
@@ -50,11 +50,11 @@ function show(done: Swept, view: (chart: Chart, files: Study["files"]) => ChartV
 // Rows of the sweep as a table.
 function rowsTable(done: Swept, quantity: string): HTMLElement {
   const number = done.numbers.find((one) => one.quantity === quantity);
-  const head = [...done.parameters.map(({ key, unit }) => (unit ? `${key} [${unit}]` : key)), "outcome", ...(number ? [number.label] : [])];
+  const head = [...done.parameters.map(({ label }) => label), "outcome", ...(number ? [number.label] : [])];
   const lines = done.rows.map((row, i) => {
-    const inputs = row.inputs.map((value, at) => done.parameters[at]?.words[value] ?? significant(value, 6));
+    const inputs = row.inputs.map((value, at) => done.parameters[at]?.words[value] ?? figure(value, 4));
     const value = number?.values[i];
-    return [...inputs, row.outcome, ...(number ? [value == null ? "–" : significant(value, 5)] : [])];
+    return [...inputs, row.outcome, ...(number ? [figure(value)] : [])];
   });
   const shown = done.rows.length < done.runs ? `The first ${done.rows.length} of ${done.runs} rows` : "The rows";
   return make("details", {}, make("summary", {}, shown), table(head, lines, [done.parameters.length]));

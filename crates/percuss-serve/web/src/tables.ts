@@ -1,30 +1,29 @@
 // Results of studies as tables.
 
-import { make, significant, table } from "./dom";
+import { figure, make, significant, table, withUnit } from "./dom";
 import type { Comparison, Convergence, Limits, Result } from "./types";
 
 const value = (result: Result, key: string) => {
   const found = result[key];
   return typeof found === "number" ? found : null;
 };
-const number = (found: number | null | undefined, digits = 4) => (found == null ? "–" : significant(found, digits));
 
 // Models at one impact velocity, measured values, and reasons of missing results.
 export function comparison(study: Comparison): HTMLElement[] {
   const { results, recommended } = study.comparison;
   const given = results.filter((result) => result.outcome !== "not_applicable" && result.outcome !== "failed");
   const chosen = new Map(recommended[0]?.models.map((choice) => [choice.model, choice.because]));
-  const head = ["model", ...study.quantities.flatMap((q) => [`${q.words} [${q.unit}]`, ...(q.measured === null ? [] : ["difference [%]"])])];
+  const head = ["model", ...study.quantities.flatMap((q) => [withUnit(q.words, q.unit), ...(q.measured === null ? [] : ["difference (%)"])])];
   const lines = given.map((result) => [
     chosen.has(result.model) ? `${result.model} ★` : result.model,
     ...study.quantities.flatMap((quantity) => {
       const found = value(result, quantity.key);
       const off = found === null || !quantity.measured ? null : 100 * (found / quantity.measured - 1);
-      return [number(found), ...(quantity.measured === null ? [] : [off === null ? "–" : `${off > 0 ? "+" : ""}${significant(off, 3)}`])];
+      return [figure(found), ...(quantity.measured === null ? [] : [off === null ? "–" : `${off > 0 ? "+" : ""}${significant(off)}`])];
     }),
   ]);
   if (study.quantities.some((quantity) => quantity.measured !== null)) {
-    lines.push(["experiment", ...study.quantities.flatMap((q) => [number(q.measured), ...(q.measured === null ? [] : [""])])]);
+    lines.push(["experiment", ...study.quantities.flatMap((q) => [figure(q.measured), ...(q.measured === null ? [] : [""])])]);
   }
   const said = [make("p", {}, make("b", {}, "Regime: "), study.regimes[0] ?? "")];
   for (const [model, because] of chosen) said.push(make("p", {}, make("b", {}, `Recommended: ${model} ★ `), because));
@@ -40,16 +39,16 @@ export function comparison(study: Comparison): HTMLElement[] {
 }
 
 export function convergence({ study, words }: Convergence): HTMLElement[] {
-  const head = ["elements", "steps", ...study.quantities.map((q) => `${q.name.replaceAll("_", " ")} [${q.unit}]`)];
-  const lines = study.meshes.map((mesh, i) => [
+  const head = ["elements", "steps", ...study.quantities.map((q) => withUnit(q.name.replaceAll("_", " "), q.unit))];
+  const lines: (string | Node)[][] = study.meshes.map((mesh, i) => [
     `${mesh.projectile_elements}–${mesh.target_elements}`,
     String(mesh.steps),
-    ...study.quantities.map((quantity) => number(quantity.values[i], 5)),
+    ...study.quantities.map((quantity) => figure(quantity.values[i])),
   ]);
-  const statuses: [string, (v: Convergence["study"]["quantities"][number]["status"]) => string][] = [
-    ["order", (v) => number(v.order, 3)],
-    ["Richardson", (v) => number(v.richardson, 5)],
-    ["GCI [%]", (v) => number(v.index === undefined ? null : 100 * v.index, 3)],
+  const statuses: [string, (v: Convergence["study"]["quantities"][number]["status"]) => string | Node][] = [
+    ["order", (v) => figure(v.order)],
+    ["Richardson", (v) => figure(v.richardson)],
+    ["GCI (%)", (v) => figure(v.index === undefined ? null : 100 * v.index)],
   ];
   for (const [name, read] of statuses) lines.push([name, "", ...study.quantities.map((quantity) => read(quantity.status))]);
   const said = study.quantities.map((quantity, i) =>
@@ -63,12 +62,16 @@ export function limits(study: Limits): HTMLElement[] {
   const found = results.filter((limit) => limit.outcome === "found");
   const lines = found.map((limit) => [
     chosen.has(limit.model) ? `${limit.model} ★` : limit.model,
-    number(limit.ballistic_limit_m_s, 5),
-    limit.bracket ? `${significant(limit.bracket.stopped_m_s, 5)} … ${significant(limit.bracket.perforated_m_s, 5)}` : "–",
+    figure(limit.ballistic_limit_m_s),
+    limit.bracket ? `${significant(limit.bracket.stopped_m_s)} … ${significant(limit.bracket.perforated_m_s)}` : "–",
     String(limit.runs),
   ]);
-  if (study.measured !== null) lines.push(["experiment", number(study.measured, 5), "", ""]);
+  if (study.measured !== null) lines.push(["experiment", figure(study.measured), "", ""]);
   const said: HTMLElement[] = [];
+  if (study.freed) {
+    said.push(make("h3", {}, "Ballistic limit with a free rear face"));
+    said.push(make("p", {}, "The case fixes the rear face, so that nothing can leave the target. `target.back_face = \"free\"` gives these numbers on the command line."));
+  }
   if (study.headline) said.push(make("p", {}, make("b", {}, study.headline)));
   if (study.axisymmetric && !chosen.has("axi")) said.push(make("p", {}, `Axisymmetric limit ${study.axisymmetric}`));
   // One reason for all models stands below.
@@ -78,14 +81,14 @@ export function limits(study: Limits): HTMLElement[] {
   for (const [model, because] of chosen) said.push(make("p", {}, make("b", {}, `Recommended: ${model} ★ `), because));
   if (note) said.push(make("p", {}, note));
   if (range && range.models > 1) {
-    said.push(make("p", {}, `Range of ${range.models} models: ${number(range.lowest_m_s)} to ${number(range.highest_m_s)} m/s`));
+    said.push(make("p", {}, `Range of ${range.models} models: ${significant(range.lowest_m_s)} to ${significant(range.highest_m_s)} m/s`));
   }
   const errors = results.flatMap((limit, i) =>
     study.expected[i] ? [make("li", {}, make("b", {}, `estimated model error of ${limit.model}: `), study.expected[i])] : []);
   const rest = results.flatMap((limit, i) =>
     limit.outcome === "found" ? [] : [make("li", {}, make("b", {}, `${limit.model}: `), limit.reason ?? study.outcomes[i] ?? "")]);
   const answer = found.length
-    ? table(["model", "ballistic limit [m/s]", "highest partial … lowest complete penetration [m/s]", "runs"], lines)
+    ? table(["model", "ballistic limit (m/s)", "highest partial … lowest complete penetration (m/s)", "runs"], lines)
     : make("p", {}, "No model finds a limit between 0 and 2000 m/s.");
   return [
     ...said,

@@ -93,6 +93,8 @@ export interface Answer {
   case: string;
   values: Values;
   constants: { key: string; value: string }[];
+  // Values of keys that the case leaves out, where they depend on it.
+  in_use: Record<string, string>;
   model: string;
   results: { case: string; percuss_version: string; results: Result[] };
   rows: [Row[], Row[], Row[]];
@@ -141,6 +143,8 @@ export interface Limits extends Study {
   axisymmetric: string | null;
   measured: number | null;
   outcomes: string[];
+  // Whether the case fixes the rear face, which is free here.
+  freed: boolean;
   rear_face: string | null;
   expected: (string | null)[];
   limits: {
@@ -192,7 +196,7 @@ export interface Swept extends Study {
   model: string;
   design: string;
   runs: number;
-  parameters: { key: string; unit: string; words: string[] }[];
+  parameters: { label: string; words: string[] }[];
   outcomes: Record<string, number>;
   reasons: string[];
   numbers: { quantity: string; label: string; values: (number | null)[] }[];
@@ -211,6 +215,7 @@ export interface Quality { count: number; rms_before: number | null; rms: number
 export interface CurveError { rms_difference: number; relative_rms_difference: number | null }
 
 export interface Calibrated extends Study {
+  labels: string[];
   material: string | null;
   calibration: {
     model: string;
@@ -308,7 +313,7 @@ export interface Start {
   answer: Answer;
   fields: Field[];
   models: { name: string; summary: string; slow: boolean }[];
-  materials: { id: string; name: string; family: string | null; recommended: boolean; trust: string; sources: string[] }[];
+  materials: { id: string; name: string; family: string | null; recommended: boolean; trust: string; sources: string[]; words: string }[];
   cases: { name: string; title: string; text: string }[];
   bounds: { elements: number; seconds: number };
   experiment_color: string;

@@ -1,12 +1,11 @@
 // Results of an uncertainty analysis, and an example of its inputs.
 
 import { post } from "./api";
-import { make, significant, table } from "./dom";
+import { figure, make, significant, table, withUnit } from "./dom";
 import { options, type Kind, type Page } from "./panel";
 import type { Spread } from "./types";
 
-const number = (value: number | null | undefined, digits = 4) => (value == null ? "–" : significant(value, digits));
-const percent = (part: number) => significant(Math.round(1000 * part) / 10, 4);
+const percent = (part: number) => significant(Math.round(1000 * part) / 10);
 const list = (items: string[]) => make("ul", {}, ...items.map((words) => make("li", {}, words)));
 
 export function uncertainty(page: Page): Kind {
@@ -53,17 +52,17 @@ function spread(done: Spread): HTMLElement[] {
 function statistics(done: Spread): HTMLElement {
   const found = done.uncertainty.quantities;
   const at = (q: (typeof found)[number], wanted: number) => q.statistics.percentiles.find((p) => p.percent === wanted)?.value;
-  const rows: [string, (q: (typeof found)[number]) => string][] = [
-    ["at median inputs", (q) => number(q.nominal)],
-    ["mean", (q) => number(q.statistics.mean)],
-    ["standard error of the mean", (q) => number(q.statistics.standard_error, 2)],
-    ["standard deviation", (q) => number(q.statistics.standard_deviation, 3)],
-    ["5th percentile", (q) => number(at(q, 5))],
-    ["median", (q) => number(at(q, 50))],
-    ["95th percentile", (q) => number(at(q, 95))],
+  const rows: [string, (q: (typeof found)[number]) => string | Node][] = [
+    ["at median inputs", (q) => figure(q.nominal)],
+    ["mean", (q) => figure(q.statistics.mean)],
+    ["standard error of the mean", (q) => figure(q.statistics.standard_error, 2)],
+    ["standard deviation", (q) => figure(q.statistics.standard_deviation)],
+    ["5th percentile", (q) => figure(at(q, 5))],
+    ["median", (q) => figure(at(q, 50))],
+    ["95th percentile", (q) => figure(at(q, 95))],
     ["runs", (q) => String(q.statistics.runs)],
   ];
-  const head = ["", ...done.quantities.map((q) => `${q.words} [${q.unit}]`)];
+  const head = ["", ...done.quantities.map((q) => withUnit(q.words, q.unit))];
   return table(head, rows.map(([name, read]) => [name, ...found.map(read)]));
 }
 
@@ -73,12 +72,12 @@ function influence(done: Spread, place: number): HTMLElement {
   const { words, unit } = done.quantities[place] ?? { words: "", unit: "" };
   const label = (key: string) => done.labels[done.uncertainty.inputs.findIndex((input) => input.key === key)] ?? key;
   const indices = quantity?.indices?.parameters;
-  const head = ["parameter", `at 5th percentile [${unit}]`, `at 95th percentile [${unit}]`, ...(indices ? ["first-order index", "total-effect index"] : [])];
+  const head = ["parameter", withUnit("at 5th percentile", unit), withUnit("at 95th percentile", unit), ...(indices ? ["first-order index", "total-effect index"] : [])];
   const lines = (quantity?.tornado ?? []).map((bar) => {
     const index = indices?.find((one) => one.key === bar.key);
     const both = index ? [index.first_order, index.total] : [];
     const estimates = both.map((e) => `${e.value.toFixed(2)} (${e.low.toFixed(2)} … ${e.high.toFixed(2)})`);
-    return [label(bar.key), number(bar.at_low), number(bar.at_high), ...(indices ? (estimates.length ? estimates : ["–", "–"]) : [])];
+    return [label(bar.key), figure(bar.at_low), figure(bar.at_high), ...(indices ? (estimates.length ? estimates : ["–", "–"]) : [])];
   });
   const why = !done.uncertainty.no_indices && quantity?.no_indices ? make("p", {}, `No Sobol' indices: ${quantity.no_indices}.`) : null;
   return make("details", {}, make("summary", {}, `Sensitivity of the ${words} as a table`), table(head, lines), why);

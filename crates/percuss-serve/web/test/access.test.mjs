@@ -1,7 +1,11 @@
 // Whether everybody can use the page: by keyboard, by names, by contrast.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { answered, complaints, open } from "./support.mjs";
+import { createRequire } from "node:module";
+import { readFileSync } from "node:fs";
+import { answered, complaints, open, study } from "./support.mjs";
+
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
 test("everything is reached by keyboard and has a name", async () => {
   const page = await open();
@@ -80,14 +84,52 @@ for (const colorScheme of ["light", "dark"]) {
     await page.locator("#comparison-body table").waitFor();
     assert.deepEqual(await page.evaluate(contrasts), []);
     // A study that is refused.
-    await page.getByRole("tab", { name: "Calibrate" }).click();
-    await page.getByRole("button", { name: "Calibrate" }).click();
+    const sweep = await study(page, "Sweep");
+    await sweep.getByLabel("to", { exact: true }).fill("300 mm");
+    await sweep.getByRole("button", { name: "Sweep" }).click();
     await page.locator(".study .problem").waitFor();
     assert.deepEqual(await page.evaluate(contrasts), []);
     await page.locator("#field-projectile-diameter").fill("x");
     await page.locator("#problem").waitFor();
     const problem = (await page.evaluate(contrasts)).filter((text) => !text.includes("stale"));
     assert.deepEqual(problem, []);
+    await page.context().close();
+  });
+}
+
+// What axe finds, as rules with their elements.
+async function findings(page) {
+  await page.evaluate(axe);
+  return page.evaluate(async () => {
+    const { violations } = await globalThis.axe.run(document);
+    return violations.map(({ id, impact, nodes }) => `${id} (${impact}): ${nodes.map((node) => node.html.slice(0, 160)).join(" | ")}`);
+  });
+}
+
+const windows = [
+  ["a desktop", { viewport: { width: 1360, height: 900 } }],
+  ["a wide window", { viewport: { width: 1920, height: 1080 }, colorScheme: "dark" }],
+  ["a phone", { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true }],
+];
+for (const [name, options] of windows) {
+  test(`axe finds nothing on ${name}`, async () => {
+    const page = await open("/", { ...options, reducedMotion: "reduce" });
+    await page.locator("#comparison-body table").waitFor();
+    await page.locator('#refined[data-meshes="4"]').waitFor({ timeout: 60_000 });
+    assert.deepEqual(await findings(page), [], "/");
+    // What is folded away, and a study that has a result.
+    await page.locator("details:not(.menu)").evaluateAll((all) => all.forEach((details) => (details.open = true)));
+    const models = await study(page, "Models versus velocity");
+    await models.getByRole("button", { name: "Models versus velocity" }).click();
+    await models.locator("figure canvas").first().waitFor({ timeout: 120_000 });
+    assert.deepEqual(await findings(page), [], "/, unfolded");
+    for (const path of ["/materials", "/materials/rha"]) {
+      await page.goto(new URL(path, page.url()).href);
+      await page.locator("h1").waitFor();
+      assert.deepEqual(await findings(page), [], path);
+      const wider = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert.ok(wider <= 0, `${path} is ${wider} px wider than the window`);
+    }
     await page.context().close();
   });
 }

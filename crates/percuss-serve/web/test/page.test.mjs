@@ -152,8 +152,91 @@ test("materials have their sources one click away", async () => {
   const link = await page.locator(".field.of-material a").first().getAttribute("href");
   await page.goto(new URL(link, page.url()).href);
   assert.match(await page.locator("body").innerText(), /sources/);
+  await page.context().close();
+});
+
+test("the materials are a table that words and a range of hardness narrow", async () => {
+  const page = await open();
   await page.goto(new URL("/materials", page.url()).href);
-  assert.ok((await page.locator("li a").count()) >= 28);
+  const ids = () => page.locator("#materials tbody tr:not([hidden]) code").allInnerTexts();
+  const listed = (...words) => JSON.parse(execFileSync(program, ["materials", ...words, "--json"], { encoding: "utf8" })).map(({ id }) => id);
+  const same = async (...words) => assert.deepEqual((await ids()).sort(), listed(...words).sort(), words.join(" "));
+  await same();
+  for (const words of ["armor", "Aluminum 7039", "al", "pb", "rha"]) {
+    await page.getByLabel("Words").fill(words);
+    await same(words);
+  }
+  assert.match(await page.locator("#count").innerText(), /^\d+ of \d+ materials$/);
+  await page.getByLabel("Words").fill("");
+  await page.getByLabel("Group").selectOption("steel");
+  await page.getByLabel("from").fill("350");
+  await page.getByLabel("to").fill("400");
+  await same("--group", "steel", "--hardness", "350..400");
+  await page.getByLabel("Words").fill("unobtainium");
+  assert.deepEqual(await ids(), []);
+  await page.context().close();
+
+  // Without a script all are there.
+  const still = await open("/materials", { javaScriptEnabled: false });
+  assert.equal(await still.locator("#materials tbody tr").count(), listed().length);
+  assert.ok(await still.locator("#filter").isHidden());
+  await still.context().close();
+});
+
+test("a material is found in the form by an alias", async () => {
+  const page = await open();
+  await page.getByLabel("Find a material: material").first().fill("ti64");
+  const values = await page.locator("#field-projectile-material option").evaluateAll((all) => all.map((option) => option.value));
+  assert.ok(values.includes("ti-6al-4v") && values.includes("copper") && !values.includes("rha"), values.join());
+  assert.equal(await page.locator("#field-projectile-material").inputValue(), "copper");
+  await page.keyboard.press("Enter");
+  await answered(page, 2);
+  assert.equal(await page.locator("#field-projectile-material").inputValue(), "ti-6al-4v");
+  assert.match(await page.locator("#text").inputValue(), /material = "ti-6al-4v"/);
+  assert.ok((await page.locator("#field-projectile-material option").count()) > 80);
+  await page.context().close();
+});
+
+test("an empty field shows the value in use", async () => {
+  const page = await open();
+  const chosen = (id) => page.locator(id).evaluate((select) => select.selectedOptions[0].textContent);
+  assert.equal(await chosen("#field-chain-target_resistance"), "expanding-cavity (default)");
+  assert.equal(await chosen("#field-projectile-nose"), "flat (default)");
+  await page.locator("#field-projectile-nose").selectOption("hemisphere");
+  await answered(page, 2);
+  assert.equal(await chosen("#field-chain-target_resistance"), "column (default)");
+  await page.locator("#field-chain-target_elements").fill("");
+  await page.waitForFunction(() => document.getElementById("field-chain-target_elements").placeholder === "80 (default)");
+  await page.context().close();
+});
+
+test("warnings are counted where the answer is, and the link leads to them", async () => {
+  const page = await open();
+  const link = page.locator("#refined a[href='#warnings']");
+  const count = await page.locator("#warnings li").count();
+  assert.ok(count > 0);
+  assert.equal(await link.innerText(), count === 1 ? "1 warning" : `${count} warnings`);
+  const seen = await link.boundingBox();
+  assert.ok(seen.y + seen.height < 500, `${seen.y}`);
+  await page.waitForFunction(() => location.hash.startsWith("#s="));
+  await page.locator("#warnings summary").click();
+  await link.click();
+  await page.locator("#warnings li").first().waitFor();
+  await page.waitForFunction(() => {
+    const { top, bottom } = document.querySelector("#warnings").getBoundingClientRect();
+    return top >= 0 && bottom <= innerHeight;
+  });
+  assert.match(new URL(page.url()).hash, /^#s=/);
+  await page.context().close();
+});
+
+test("the text stands beside the form where there is room", async () => {
+  const page = await open("/", { viewport: { width: 1920, height: 1080 } });
+  const [form, text, answer] = await Promise.all(["#form", "#text-box", "#own"].map((id) => page.locator(id).boundingBox()));
+  assert.ok(text.x >= form.x + form.width && Math.abs(text.y - form.y) < 2, JSON.stringify([form, text]));
+  assert.ok(answer.x >= text.x + text.width, JSON.stringify([text, answer]));
+  const wider = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  assert.ok(wider <= 0, `${wider} px wider than the window`);
   await page.context().close();
 });
 

@@ -68,7 +68,7 @@ test("a sweep of two numbers shows curves, a map, rows and files that the comman
   const files = { "sweep.toml": sweep, "scenario.toml": scenario };
   assert.equal(command("swept", files, "sweep", "sweep.toml", "--out", "rows", "--quiet").status, 0);
   // The figure has the same numbers, and so the same text.
-  const [, svg] = await take(page, of, /Download the figure/);
+  const [, svg] = await take(page, of, /SVG of the figure/);
   const words = ["sweep", "plot", "rows", "--quantity", "peak_force_kn", "--style", "map", "--x", "projectile.impact_velocity"];
   assert.equal(command("swept", files, ...words).status, 0);
   // Above stands the name of the case, which is that of the folder.
@@ -135,11 +135,19 @@ test("a calibration shows its values, and the command prints the same", async ()
   await page.context().close();
 });
 
-test("a calibration of a case without measured values says so", async () => {
+test("a case without measured values is given an example of them", async () => {
   const page = await shows(coarse);
   const of = await study(page, "Calibrate");
   await start(of, "Calibrate");
-  await of.getByText("the case has no measured value").waitFor();
+  await of.getByText("an example is now at the end of its text").waitFor();
+  await of.getByText("Measured and predicted values").waitFor({ timeout: 60_000 });
+  assert.match(await page.locator("#text").inputValue(), /They are no measurements[^]*\[\[experiments\]\][^]*source = "example"/);
+  assert.ok(await page.locator("#problem").isHidden());
+  assert.match(await of.innerText(), /Power-law coefficient, copper \(MPa\)/);
+  // The example is there already.
+  await start(of, "Calibrate");
+  await of.getByText("Measured and predicted values").waitFor({ timeout: 60_000 });
+  assert.equal((await page.locator("#text").inputValue()).split("[[experiments]]").length, 4);
   await page.context().close();
 });
 

@@ -150,5 +150,5 @@ impl Choice {
 
 /// Name of a parameter with its unit in parentheses.
 fn label(varied: &Varied) -> String {
-    names::with_unit(&names::parameter(&varied.key), &varied.unit)
+    names::parameter_label(&varied.key, &varied.unit)
 }
