@@ -164,9 +164,13 @@ impl Chance {
         let (velocity, shear) = (self.between(50.0, 900.0), self.between(0.0, 0.6));
         let erosion = self.between(0.3, 1.5);
         let [rate_effects, heating] = [0, 1].map(|_| self.between(0.0, 1.0) < 0.8);
+        let [hot_rod, hot_plate] = [0, 1].map(|_| match self.between(0.0, 1.0) < 0.3 {
+            true => format!(", temperature = '{} K'", self.between(300.0, 900.0)),
+            false => String::new(),
+        });
         let text = format!(
-            "projectile = {{ material = 'rod', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '{velocity} m/s' }}\n\
-             target = {{ material = 'plate', thickness = '25 mm' }}\n[chain]\ntarget_resistance = 'column'\n\
+            "projectile = {{ material = 'rod', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '{velocity} m/s'{hot_rod} }}\n\
+             target = {{ material = 'plate', thickness = '25 mm'{hot_plate} }}\n[chain]\ntarget_resistance = 'column'\n\
              projectile_elements = 8\ntarget_elements = 15\nborder_shear = {shear}\nerosion_strain = {erosion}\n\
              rate_effects = {rate_effects}\nadiabatic_heating = {heating}\n{}{}",
             metal("rod", &rod, constants[0]),
