@@ -217,7 +217,7 @@ fn a_study_of_meshes_counts_cells_per_radius() {
         if file.extension().is_some_and(|end| end == "svg") {
             let svg = fs::read_to_string(&file).unwrap();
             assert!(svg.contains("Cells per radius of the projectile"));
-            assert!(svg.contains(": A short rod"), "{}", file.display());
+            assert!(svg.contains("A short rod; "), "{}", file.display());
         }
     }
 }

@@ -35,6 +35,7 @@ mod support;
 mod sweep;
 mod sweep_faults;
 mod sweep_plot;
+mod titles;
 mod uncertainty;
 mod units;
 mod validate;

@@ -121,15 +121,16 @@ fn count(svg: &str, before: &str, after: char) -> u64 {
 }
 
 #[test]
-fn the_title_of_a_figure_is_that_of_the_sweep_or_of_its_case() {
+fn the_title_of_a_figure_is_that_of_the_sweep_or_the_result_and_its_caption_has_the_case() {
     let case = format!("title = 'A rod of copper'\n{CASE}");
-    for (title, expected) in [("", "A rod of copper"), ("title = 'Speeds'", "Speeds")] {
+    for (title, expected) in [("", "Depth of penetration"), ("title = 'Speeds'", "Speeds")] {
         let text = format!("base = 'scenario.toml'\ndesign = 'grid'\n{title}\n{SPEEDS}");
         let folder = folder_with(&[("scenario.toml", &case), ("sweep.toml", &text)]);
         let arguments = ["sweep", "sweep.toml", "--out", "rows", "--quiet"];
         assert_eq!(percuss(folder.path(), arguments).code, 0);
         let svg = drawn(&folder, &[], &format!("curves-{DEPTH}"));
         assert!(svg.contains(&format!(">{expected}</text>")), "{title}");
+        assert!(svg.contains(">A rod of copper; model chain, "), "{svg}");
     }
 }
 

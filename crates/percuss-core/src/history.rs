@@ -173,15 +173,23 @@ pub struct GaugeHistory {
 
 /// Samples kept lie between this number and half of it.
 const MOST_SAMPLES: usize = 1600;
-/// Profiles kept lie between this number and half of it.
+/// Profiles kept after the first waves lie between this number and half of it.
 const MOST_PROFILES: usize = 400;
+/// Steps per element in which the first waves are followed: they run through all elements and back.
+const WAVE_STEPS: usize = 2;
+/// Most profiles of the first waves, which move on by an element in a step or two.
+const MOST_WAVE_PROFILES: usize = 128;
 
-/// Collects histories of a run of unknown length: when it is full, it drops every other entry and doubles its stride.
+/// Collects histories of a run of unknown length: when it is full, it drops every other entry and doubles its stride. Profiles of the
+/// first waves stay.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Recorder {
     history: History,
     sample_stride: u64,
     profile_stride: u64,
+    /// Number of the profiles of the first waves, and their stride.
+    wave_profiles: usize,
+    wave_stride: u64,
 }
 
 impl Recorder {
@@ -198,6 +206,8 @@ impl Recorder {
             },
             sample_stride: 1,
             profile_stride: 1,
+            wave_profiles: 0,
+            wave_stride: 1,
         }
     }
 
@@ -208,7 +218,10 @@ impl Recorder {
 
     /// Whether a step is one of those with a profile.
     pub fn wants_profile(&self, step: u64) -> bool {
-        step.is_multiple_of(self.profile_stride)
+        match self.history.profiles.len() < self.wave_profiles {
+            true => step.is_multiple_of(self.wave_stride),
+            false => step.is_multiple_of(self.profile_stride),
+        }
     }
 
     /// Adds a sample, with the states at all gauges.
@@ -230,9 +243,19 @@ impl Recorder {
 
     /// Adds a profile.
     pub fn profile(&mut self, profile: Profile) {
-        self.history.profiles.push(profile);
-        if self.history.profiles.len() > MOST_PROFILES {
-            thin(&mut self.history.profiles);
+        let profiles = &mut self.history.profiles;
+        if profiles.is_empty() && !profile.elements.is_empty() {
+            // Powers of two, so that later profiles stay multiples of their stride.
+            let steps = (WAVE_STEPS * profile.elements.len()).next_power_of_two();
+            let stride = (steps / MOST_WAVE_PROFILES).max(1);
+            self.wave_profiles = steps / stride;
+            self.wave_stride = stride as u64;
+        }
+        profiles.push(profile);
+        if profiles.len() > self.wave_profiles + MOST_PROFILES {
+            let mut later = profiles.split_off(self.wave_profiles);
+            thin(&mut later);
+            profiles.extend(later);
             self.profile_stride *= 2;
         }
     }
@@ -270,6 +293,30 @@ fn thin<T>(entries: &mut Vec<T>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn profiles_of_the_first_waves_stay_and_later_ones_are_evenly_spread() {
+        let mut recorder = Recorder::new(&[]);
+        for step in 0..20_000 {
+            if recorder.wants_profile(step) {
+                recorder.profile(Profile {
+                    time: step as f64,
+                    elements: vec![ElementState::gone(0, 0.0); 100],
+                });
+            }
+        }
+        let times: Vec<f64> = recorder.history.profiles.iter().map(|p| p.time).collect();
+        // 100 elements: 256 steps, every other one.
+        let first: Vec<f64> = (0..128).map(|i| 2.0 * f64::from(i)).collect();
+        assert_eq!(times[..128], first);
+        let later = &times[128..];
+        assert!((MOST_PROFILES / 2..=MOST_PROFILES).contains(&later.len()));
+        assert_eq!(later[0], 256.0);
+        assert!(
+            later.windows(2).all(|pair| pair[1] - pair[0] == 64.0),
+            "{later:?}"
+        );
+    }
 
     #[test]
     fn a_long_run_keeps_few_entries_evenly_spread() {

@@ -11,6 +11,7 @@ pub mod input_file;
 pub mod lanes;
 pub mod ledger;
 pub mod material;
+pub mod minimum;
 pub mod options;
 pub mod outcome;
 pub mod power;

@@ -1,6 +1,7 @@
 //! Models: the list of all, the default for a case, and which of several results to rely on.
 
 mod choice;
+mod label;
 mod recommend;
 
 use crate::{
@@ -19,6 +20,7 @@ use crate::{
 };
 
 pub use choice::{ChosenModel, DEFAULT_MODEL, choose, default_model};
+pub use label::label;
 pub use recommend::recommend;
 pub use recommend::{Choice, Recommendation};
 

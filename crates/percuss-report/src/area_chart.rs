@@ -1,19 +1,14 @@
 //! Charts of stacked areas.
 
-use kuva::plot::{
-    StackedAreaPlot,
-    legend::{LegendEntry, LegendShape},
-};
+use kuva::plot::StackedAreaPlot;
 
 use crate::{
     Axis, Figure,
     chart_methods::chart_methods,
-    frame::{Frame, Head, plain},
+    frame::{Frame, Head},
+    legend::{Entry, Legend},
     palette,
 };
-
-/// Most characters of a name in the legend.
-const LEGEND_CHARS: usize = 30;
 
 /// A chart of stacked areas, the first one at the bottom.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,17 +78,12 @@ impl AreaChart {
         for (index, (name, color, heights)) in self.areas.iter().enumerate() {
             let color = color.as_deref().unwrap_or(palette::series(index));
             plot = plot.with_series(heights.iter().copied()).with_color(color);
-            legend.push(LegendEntry {
-                label: plain(name, LEGEND_CHARS),
-                color: color.to_owned(),
-                shape: LegendShape::Rect,
-                dasharray: None,
-            });
+            legend.push(Entry::area(name, color, 1.0));
         }
         // The legend lists areas as they stand on each other, the uppermost first.
         legend.reverse();
         let frame = Frame {
-            legend,
+            legend: Legend::new(legend),
             ..Frame::new(&self.head, [&self.x, &self.y], self.extents())
         };
         frame.draw(vec![plot.into()], |_, _| {})

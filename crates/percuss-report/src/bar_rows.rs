@@ -11,8 +11,9 @@ use crate::{
     chart_methods::chart_methods,
     figure_width,
     frame::{Frame, Head, plain},
+    legend::{Entry, Legend},
     mark,
-    primitives::{area_entry, bar, border, line, text},
+    primitives::{bar, border, line, text},
     single,
 };
 
@@ -133,10 +134,10 @@ impl BarRows {
         let legend = self
             .colors
             .iter()
-            .map(|(name, color)| area_entry(name, color));
+            .map(|(name, color)| Entry::area(name, color, 1.0));
         let frame = Frame {
             height: SURROUNDINGS + rows.height * count.max(2.0),
-            legend: legend.chain(mark::entries(&self.marks)).collect(),
+            legend: Legend::new(legend.chain(mark::entries(&self.marks))),
             ..Frame::new(&self.head, [&x, &y], (extent, (0.5, count + 0.5)))
         };
         // Axes are drawn only for a plot, so there is one without content.

@@ -39,12 +39,9 @@ pub(crate) fn caption(scenario: &Scenario, speed: Option<f64>) -> String {
     )
 }
 
-/// Numbers below a title that ends with [`Scenario::heading`]: after the case in one line where it has no title.
-pub(crate) fn below_heading(scenario: &Scenario, numbers: &str) -> String {
-    match scenario.title.trim().is_empty() {
-        true => format!("{}; {numbers}", caption(scenario, None)),
-        false => numbers.to_owned(),
-    }
+/// Case in one line, then numbers.
+pub(crate) fn caption_with(scenario: &Scenario, numbers: &str) -> String {
+    format!("{}; {numbers}", caption(scenario, None))
 }
 
 /// A number to four significant digits, without trailing zeros.

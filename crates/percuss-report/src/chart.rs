@@ -2,7 +2,6 @@
 
 use kuva::plot::{
     BandPlot, LinePlot, ScatterPlot,
-    legend::{LegendEntry, LegendShape},
     line::{LineStyle, ScatterPoint as LinePoint},
     scatter::{MarkerShape, ScatterPoint},
 };
@@ -12,7 +11,8 @@ use crate::{
     Axis, Figure, Mark, Series, Style,
     chart_methods::chart_methods,
     figure_width,
-    frame::{Frame, Head, plain},
+    frame::{Frame, Head},
+    legend::{Entry, Legend},
     mark, palette,
 };
 
@@ -20,8 +20,6 @@ use crate::{
 const DASHES: &str = "5 2.5";
 /// Opacity of the area of a band.
 const BAND_OPACITY: f64 = 0.18;
-/// Most characters of a name in the legend.
-const LEGEND_CHARS: usize = 34;
 /// Shapes of markers, in the order in which series take them.
 const MARKERS: [MarkerShape; 9] = [
     MarkerShape::Circle,
@@ -43,6 +41,8 @@ pub struct LineChart {
     pub(crate) y: Axis,
     pub(crate) series: Vec<Series>,
     pub(crate) marks: Vec<Mark>,
+    /// What the second column of the legend has, and its unit.
+    pub(crate) values: Option<(&'static str, &'static str)>,
     pub(crate) true_to_scale: bool,
     pub(crate) square: bool,
 }
@@ -58,6 +58,7 @@ impl LineChart {
             y,
             series: Vec::new(),
             marks: Vec::new(),
+            values: None,
             true_to_scale: false,
             square: false,
         }
@@ -73,6 +74,21 @@ impl LineChart {
     pub(crate) fn all(mut self, series: impl IntoIterator<Item = Series>) -> Self {
         self.series.extend(series);
         self
+    }
+
+    /// Heads the second column of the legend.
+    pub(crate) fn values(mut self, what: &'static str, unit: &'static str) -> Self {
+        self.values = Some((what, unit));
+        self
+    }
+
+    /// A name with the text of the second column of the legend.
+    pub(crate) fn full_name(&self, name: &str, value: &str) -> String {
+        match self.values {
+            _ if value.is_empty() => name.to_owned(),
+            Some((what, unit)) => format!("{name}, {what} {value} {unit}"),
+            None => format!("{name}, {value}"),
+        }
     }
 
     /// Gives a unit the same length on both axes, by the height of the figure where that suffices.
@@ -147,10 +163,24 @@ impl LineChart {
     pub(crate) fn color(&self, index: usize) -> String {
         match &self.series[index].color {
             Some(color) => color.clone(),
-            None => {
-                let before = self.series[..index].iter();
-                palette::series(before.filter(|s| s.color.is_none()).count()).to_owned()
-            }
+            None => palette::series(self.number(index)).to_owned(),
+        }
+    }
+
+    /// Number of a series among those that take the next free colour.
+    fn number(&self, index: usize) -> usize {
+        let before = self.series[..index].iter();
+        before.filter(|series| series.color.is_none()).count()
+    }
+
+    /// Dashes and gaps of a series [px], if it has any.
+    pub(crate) fn dashes(&self, index: usize) -> Option<&'static str> {
+        let series = &self.series[index];
+        match (series.style, series.symbol, &series.color) {
+            (Style::Dashed, ..) => Some(DASHES),
+            (_, Some(symbol), _) => palette::symbol_dashes(symbol),
+            (_, None, None) => palette::series_dashes(self.number(index)),
+            (_, None, Some(_)) => None,
         }
     }
 
@@ -160,7 +190,7 @@ impl LineChart {
             let color = self.color(index);
             for run in self.runs(series) {
                 if !matches!(series.style, Style::Markers | Style::Cloud) {
-                    plots.push(line(series, run.clone(), &color));
+                    plots.push(line(series, run.clone(), &color, self.dashes(index)));
                 }
                 // A single point has no line to be seen by.
                 let marked = series.style.has_markers();
@@ -224,62 +254,38 @@ impl LineChart {
         runs
     }
 
-    fn legend(&self) -> Vec<LegendEntry> {
-        let series = self.series.iter().enumerate().map(|(index, series)| {
-            let shape = match series.style {
-                Style::Line | Style::Dashed => LegendShape::Line,
-                _ => LegendShape::Marker(marker(index, series)),
-            };
-            let dashes = match shape {
-                LegendShape::Line => dashes(series).map(str::to_owned),
-                _ => None,
-            };
-            (legend_name(series), self.color(index), shape, dashes)
+    fn legend(&self) -> Legend {
+        let named = self.series.iter().enumerate();
+        let named = named.filter(|(_, series)| !series.name.is_empty());
+        let entries = named.flat_map(|(index, series)| {
+            let color = self.color(index);
+            let lined = !matches!(series.style, Style::Markers | Style::Cloud) || series.joined;
+            let line = lined.then(|| self.dashes(index));
+            let marker = series.style.has_markers().then(|| marker(index, series));
+            let own = Entry::series(&series.name, &color, line, marker).value(&series.value);
+            let band = !series.band_name.is_empty();
+            let band = band.then(|| Entry::area(&series.band_name, &color, BAND_OPACITY));
+            std::iter::once(own).chain(band)
         });
-        series
-            .filter(|entry| !entry.0.is_empty())
-            .map(|(name, color, shape, dasharray)| LegendEntry {
-                label: plain(&name, LEGEND_CHARS),
-                color,
-                shape,
-                dasharray,
-            })
-            .chain(mark::entries(&self.marks))
-            .collect()
-    }
-}
-
-fn marker(index: usize, series: &Series) -> MarkerShape {
-    MARKERS[series.symbol.unwrap_or(index) % MARKERS.len()]
-}
-
-fn symbol_dashes(series: &Series) -> Option<palette::Dashes> {
-    series.symbol.and_then(palette::symbol_dashes)
-}
-
-/// Name in the legend, which shows the marker of a line with markers and therefore has to say how the line is dashed.
-fn legend_name(series: &Series) -> String {
-    match symbol_dashes(series) {
-        Some(dashes) if series.style == Style::LineAndMarkers && !series.name.is_empty() => {
-            format!("{} ({})", series.name, dashes.word)
+        let legend = Legend::new(entries.chain(mark::entries(&self.marks)));
+        match self.values {
+            Some((what, unit)) => legend.heading(&format!("{what} ({unit})")),
+            None => legend,
         }
-        _ => series.name.clone(),
     }
 }
 
-/// Dashes and gaps of a series [px], if it has any.
-pub(crate) fn dashes(series: &Series) -> Option<&'static str> {
-    match series.style {
-        Style::Dashed => Some(DASHES),
-        _ => symbol_dashes(series).map(|dashes| dashes.pattern),
-    }
+/// Marker of a series: after the last colour and marker together, the markers are shifted.
+fn marker(index: usize, series: &Series) -> MarkerShape {
+    let index = series.symbol.unwrap_or(index);
+    MARKERS[(index + index / palette::MARKED) % MARKERS.len()]
 }
 
-fn line(series: &Series, run: std::ops::Range<usize>, color: &str) -> Plot {
+fn line(series: &Series, run: std::ops::Range<usize>, color: &str, dashes: Option<&str>) -> Plot {
     let mut line = LinePlot::new()
         .with_color(color)
         .with_stroke_width(series.width);
-    if let Some(dashes) = dashes(series) {
+    if let Some(dashes) = dashes {
         line = line.with_line_style(LineStyle::Custom(dashes.to_owned()));
     }
     line.data = run
@@ -358,19 +364,44 @@ mod tests {
     use super::*;
 
     #[test]
-    fn symbols_differ_in_colour_and_marker_and_those_of_one_colour_in_dashes() {
-        let all: Vec<_> = (0..18)
-            .map(|index| {
-                let series = Series::new("", []).symbol(index);
-                let dashes = symbol_dashes(&series).map(|dashes| dashes.pattern);
-                (series.color.clone(), marker(0, &series), dashes)
-            })
-            .collect();
-        for (i, a) in all.iter().enumerate() {
-            for b in &all[..i] {
-                let same_color = a.0 == b.0;
-                assert!(!same_color || (a.1 as u8 != b.1 as u8 && a.2 != b.2));
+    fn series_differ_in_colour_and_marker_and_in_colour_and_dashes() {
+        let symbols: Vec<Series> = (0..48).map(|i| Series::new("", []).symbol(i)).collect();
+        let plain: Vec<Series> = (0..48).map(|_| Series::new("", [])).collect();
+        for (series, with_markers) in [(symbols, true), (plain, false)] {
+            let chart = LineChart::new("", "", Axis::new(""), Axis::new("")).all(series);
+            let look = |i: usize| {
+                let marker = with_markers.then(|| marker(i, &chart.series[i]) as u8);
+                (chart.color(i), chart.dashes(i), marker)
+            };
+            for i in 0..chart.series.len() {
+                for j in 0..i {
+                    let (a, b) = (look(i), look(j));
+                    let same_marker = with_markers && a.2 == b.2;
+                    assert!(a.0 != b.0 || (a.1 != b.1 && !same_marker), "{i} {j}");
+                }
             }
         }
+    }
+
+    #[test]
+    fn the_legend_shows_dashes_with_their_markers_and_names_bands() {
+        let points = || [(0.0, 1.0), (1.0, 2.0)];
+        let band = Series::new("one", points()).band([(0.5, 1.5), (1.5, 2.5)]);
+        let chart = LineChart::new("c", "C", Axis::new("x"), Axis::new("y"))
+            .values("limit", "m/s")
+            .series(band.band_name("range of one").value("12"))
+            .series(
+                Series::new("two", points())
+                    .style(Style::LineAndMarkers)
+                    .symbol(6)
+                    .value("13"),
+            );
+        let svg = chart.draw().svg;
+        for text in ["one", "range of one", "12", "two", "13", "limit (m/s)"] {
+            assert!(svg.contains(&format!(">{text}</text>")), "{text}: {svg}");
+        }
+        // In the plot and in the legend.
+        assert_eq!(svg.matches(r#"stroke-dasharray="7 3""#).count(), 2);
+        assert_eq!(chart.full_name("two", "13"), "two, limit 13 m/s");
     }
 }

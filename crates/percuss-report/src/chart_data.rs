@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::{
     AreaChart, Axis, Bar, BarRows, Figure, HeatMap, Histogram, LineChart, Mark, RowChart, Series,
-    Style, chart::dashes, frame::Head, palette, row_chart::Row, single::ends,
+    Style, frame::Head, palette, row_chart::Row, single::ends,
 };
 
 /// Smallest and largest value on either axis.
@@ -207,9 +207,9 @@ fn lines(chart: &LineChart) -> ChartData {
     let series = chart.series.iter().enumerate().map(|(index, series)| {
         let shared = index > 0 && same(series);
         SeriesData {
-            name: series.name.clone(),
+            name: chart.full_name(&series.name, &series.value),
             color: chart.color(index),
-            dashes: dashes(series),
+            dashes: chart.dashes(index),
             line: !matches!(series.style, Style::Markers | Style::Cloud),
             markers: series.style.has_markers(),
             width: series.width as f32,
@@ -219,9 +219,13 @@ fn lines(chart: &LineChart) -> ChartData {
             band: series.band.iter().copied().map(ends).collect(),
         }
     });
+    let marks = chart.marks.iter().map(|mark| Mark {
+        name: chart.full_name(&mark.name, &mark.shown),
+        ..mark.clone()
+    });
     let content = Content::Lines {
         series: series.collect(),
-        marks: chart.marks.clone(),
+        marks: marks.collect(),
         true_to_scale: chart.true_to_scale,
     };
     data(&chart.head, [&chart.x, &chart.y], chart.extents(), content)

@@ -1,6 +1,8 @@
 //! Chart of a comparison of models, and its figure.
 
-use percuss::{Scenario, compare::Comparison, outcome::BandQuantity, summary::ResultRecord};
+use percuss::{
+    Scenario, compare::Comparison, model::label, outcome::BandQuantity, summary::ResultRecord,
+};
 
 use crate::{
     Axis, Chart, Figure, LineChart, Mark, RowChart, Series, Style,
@@ -76,8 +78,8 @@ fn recommended(comparison: &Comparison, model: &str) -> Vec<bool> {
 
 fn name(model: &str, recommended: &[bool]) -> String {
     match recommended.contains(&true) {
-        true => format!("{model} {RECOMMENDED}"),
-        false => model.to_owned(),
+        true => format!("{} {RECOMMENDED}", label(model)),
+        false => label(model).into_owned(),
     }
 }
 
@@ -85,6 +87,15 @@ fn name(model: &str, recommended: &[bool]) -> String {
 fn band(record: &ResultRecord, quantity: BandQuantity) -> Option<(f64, f64)> {
     let band = record.band.as_ref()?;
     (band.quantity == quantity).then_some((band.low, band.high))
+}
+
+/// Where a depth lies by the estimated error of its model: the ends of the 80 % interval.
+fn corrected(record: &ResultRecord, quantity: BandQuantity) -> Option<(f64, f64)> {
+    if quantity != BandQuantity::DepthOfPenetration {
+        return None;
+    }
+    let (value, error) = (record.value(quantity)?, record.expected_error.as_ref()?);
+    (error.low > -1.0).then(|| (value / (1.0 + error.high), value / (1.0 + error.low)))
 }
 
 fn lines(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -> LineChart {
@@ -95,8 +106,10 @@ fn lines(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -
         Axis::new("Impact velocity (m/s)"),
         axis(quantity),
     )
-    .caption(note(scenario, comparison));
-    for (index, model) in comparison.models().into_iter().enumerate() {
+    .caption(note(scenario, comparison, ""));
+    let models = comparison.models();
+    let symbols = palette::model_symbols(models.iter().copied());
+    for (model, symbol) in models.into_iter().zip(symbols) {
         let records: Vec<&ResultRecord> = comparison.of_model(model).collect();
         if records
             .iter()
@@ -118,20 +131,25 @@ fn lines(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -
             });
         if recommended.contains(&true) {
             let thick = Series::new("", emphasised).width(EMPHASIS);
-            chart = chart.series(thick.color(palette::symbol_color(index)));
+            chart = chart.series(thick.color(palette::symbol_color(symbol)));
         }
         let bands = records
             .iter()
             .map(|record| band(record, quantity).unwrap_or((NONE, NONE)));
-        chart = chart.series(
-            Series::new(
-                name(model, &recommended),
-                records.iter().map(|record| point(record)),
-            )
-            .style(Style::LineAndMarkers)
-            .symbol(index)
-            .band(bands),
-        );
+        let series = Series::new(
+            name(model, &recommended),
+            records.iter().map(|record| point(record)),
+        )
+        .style(Style::LineAndMarkers)
+        .symbol(symbol)
+        .band(bands);
+        let ranged = records
+            .iter()
+            .any(|record| band(record, quantity).is_some());
+        chart = chart.series(match ranged {
+            true => series.band_name("range of uncertain constants"),
+            false => series,
+        });
     }
     let measured: Vec<_> = comparison
         .experiments
@@ -160,13 +178,27 @@ fn rows(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) ->
         BandQuantity::BallisticLimit => String::new(),
         _ => format!(" at {} m/s", significant(speed)),
     };
+    let any = |has: &dyn Fn(&ResultRecord) -> bool| comparison.results.iter().any(has);
+    let bars = match (
+        any(&|record| corrected(record, quantity).is_some()),
+        any(&|record| corrected(record, quantity).is_none() && band(record, quantity).is_some()),
+    ) {
+        (true, false) => "bars: depth corrected by the model error, 80 % interval",
+        (true, true) => {
+            "bars: depth corrected by the model error, 80 % interval, or range of uncertain constants where no error is known"
+        }
+        (false, true) => "bars: range of uncertain constants",
+        (false, false) => "",
+    };
     let mut chart = RowChart::new(
         "compare",
         format!("{}{at} by model", title(quantity)),
         axis(quantity),
     )
-    .caption(note(scenario, comparison));
-    for (index, model) in comparison.models().into_iter().enumerate() {
+    .caption(note(scenario, comparison, bars));
+    let models = comparison.models();
+    let symbols = palette::model_symbols(models.iter().copied());
+    for (model, symbol) in models.into_iter().zip(symbols) {
         let mut given = comparison
             .of_model(model)
             .filter(|r| r.value(quantity).is_some());
@@ -176,8 +208,8 @@ fn rows(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) ->
         chart = chart.row(
             name(model, &recommended(comparison, model)),
             record.value(quantity).unwrap_or(f64::NAN),
-            band(record, quantity),
-            palette::symbol_color(index),
+            corrected(record, quantity).or_else(|| band(record, quantity)),
+            palette::symbol_color(symbol),
         );
     }
     for measured in comparison
@@ -203,14 +235,18 @@ fn rows(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) ->
     chart
 }
 
-/// Case in one line, with the meaning of the star.
-fn note(scenario: &Scenario, comparison: &Comparison) -> String {
+/// Case in one line, with the meaning of the star and of the bars.
+fn note(scenario: &Scenario, comparison: &Comparison, bars: &str) -> String {
     let marked = comparison
         .recommended
         .iter()
         .any(|at| !at.models.is_empty());
-    match marked {
+    let case = match marked {
         true => format!("{} ({RECOMMENDED} recommended)", caption(scenario, None)),
         false => caption(scenario, None),
+    };
+    match bars {
+        "" => case,
+        bars => format!("{case}; {bars}"),
     }
 }

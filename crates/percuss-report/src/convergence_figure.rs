@@ -32,7 +32,7 @@ pub fn convergence_chart(case: &str, study: &MeshStudy, quantity: usize) -> Opti
     let points = meshes.into_iter().zip(quantity.values.iter().copied());
     let mut chart = LineChart::new(
         format!("convergence-{}", quantity.name.replace('_', "-")),
-        format!("Convergence of the {name}: {case}"),
+        format!("Convergence of the {name}"),
         Axis::new(along).log(),
         Axis::new(with_unit(&name, quantity.unit)),
     )
@@ -46,5 +46,5 @@ pub fn convergence_chart(case: &str, study: &MeshStudy, quantity: usize) -> Opti
             richardson,
         ));
     }
-    Some(chart.caption(words).into())
+    Some(chart.caption(format!("{case}; {words}")).into())
 }

@@ -1,8 +1,8 @@
 //! Measured curves with those of runs.
 
 use percuss::{
-    Scenario, measured_curves::CurveComparison, scenario::MeasuredCurve, summary::ResultRecord,
-    units::significant,
+    Scenario, measured_curves::CurveComparison, model::label, scenario::MeasuredCurve,
+    summary::ResultRecord, units::significant,
 };
 
 use crate::{
@@ -38,11 +38,7 @@ fn curve_chart(
     };
     let chart = LineChart::new(
         format!("measured-curve-{}", index + 1),
-        format!(
-            "{}{place}: {} and computed",
-            capitalized(&words),
-            curve.name
-        ),
+        format!("{}{place}, measured and computed", capitalized(&words)),
         Axis::new("Time (µs)").tight(),
         Axis::new(with_unit(&words, curve.unit.symbol)),
     )
@@ -54,15 +50,16 @@ fn curve_chart(
             .color(palette::EXPERIMENT),
     );
     let mut any = false;
-    for (at, record) in records.iter().enumerate() {
+    let symbols = palette::model_symbols(records.iter().map(|record| record.model));
+    for (record, symbol) in records.iter().zip(symbols) {
         let found = record.measured_curves.get(index);
         let Some(found) = found.filter(|found| !found.computed.is_empty()) else {
             continue;
         };
         any = true;
-        let name = format!("{}{}", record.model, differs_by(found));
+        let name = format!("{}{}", label(record.model), differs_by(found));
         let line = Series::new(name, in_unit(&found.computed));
-        chart = chart.series(line.color(palette::symbol_color(at)));
+        chart = chart.series(line.symbol(symbol));
     }
     any.then_some(chart)
 }

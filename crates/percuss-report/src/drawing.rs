@@ -119,9 +119,12 @@ impl Drawing {
         (title, caption): (&str, &str),
         heights: [f64; 2],
     ) -> Figure {
-        for ((content, size), y) in [(title, 17.0), (caption, 12.0)].into_iter().zip(heights) {
-            let chars = (self.width / (0.6 * size)) as usize;
-            let content = shorten(content, chars);
+        let chars = |size: f64| (self.width / (0.6 * size)) as usize;
+        let title_line = (shorten(title, chars(17.0)), 17.0, heights[0]);
+        let captions = lines(caption, chars(12.0)).into_iter().enumerate();
+        let captions = captions.map(|(i, line)| (line, 12.0, heights[1] + 14.0 * i as f64));
+        let texts: Vec<(String, f64, f64)> = std::iter::once(title_line).chain(captions).collect();
+        for (content, size, y) in texts {
             self.text((0.5 * self.width, y), &content, Text::new(size, "middle"));
         }
         // Panels side by side keep their places; on a narrower page they shrink.
@@ -143,6 +146,19 @@ impl Drawing {
                 scale * self.height
             ),
         }
+    }
+}
+
+/// A text on two lines at most, of at most so many characters each.
+fn lines(text: &str, most: usize) -> Vec<String> {
+    let text = shorten(text, usize::MAX);
+    if text.chars().count() <= most {
+        return vec![text];
+    }
+    let end = text.char_indices().nth(most).map_or(text.len(), |(i, _)| i);
+    match text[..end].rfind(' ') {
+        Some(space) => vec![text[..space].to_owned(), shorten(&text[space..], most)],
+        None => vec![shorten(&text, most)],
     }
 }
 

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use kuva::{
     backend::svg::SvgBackend,
-    plot::legend::{LegendEntry, LegendPosition},
     render::{
         annotations::ReferenceLine,
         layout::{ComputedLayout, Layout, TickFormat},
@@ -16,7 +15,7 @@ use kuva::{
 
 use serde::Serialize;
 
-use crate::{Axis, Figure, figure_width};
+use crate::{Axis, Figure, figure_width, legend::Legend};
 
 /// Height of figures whose content does not ask for another one [px].
 pub(crate) fn height() -> f64 {
@@ -32,6 +31,9 @@ const TITLE_SIZE: u32 = 17;
 const NARROW_TITLE_SIZE: u32 = 13;
 const CAPTION_SIZE: u32 = 12;
 const LABEL_SIZE: u32 = 14;
+/// Most lines of a title and of a caption.
+const TITLE_LINES: usize = 2;
+const CAPTION_LINES: usize = 3;
 /// Mean width of a character, in sizes of the font, rather too much than too little.
 const CHAR_WIDTH: f64 = 0.6;
 
@@ -66,7 +68,7 @@ pub(crate) struct Frame<'a> {
     pub(crate) aspect: Option<f64>,
     /// Space at the right that the content draws in itself, in place of a legend [px].
     pub(crate) right_margin: Option<f64>,
-    pub(crate) legend: Vec<LegendEntry>,
+    pub(crate) legend: Legend,
     pub(crate) marks: Vec<ReferenceLine>,
 }
 
@@ -86,7 +88,7 @@ impl<'a> Frame<'a> {
             height: height(),
             aspect: None,
             right_margin: None,
-            legend: Vec::new(),
+            legend: Legend::default(),
             marks: Vec::new(),
         }
     }
@@ -100,14 +102,19 @@ impl<'a> Frame<'a> {
         let place = ComputedLayout::from_layout(&self.layout());
         self.height += match self.aspect {
             Some(aspect) => aspect * place.plot_width() - place.plot_height(),
-            // Wrapped titles and a legend below take nothing from the plot.
-            None if figure_width::is_narrow() => place.legend_bottom_extra + place.margin_top,
+            // Wrapped titles take nothing from the plot.
+            None if figure_width::is_narrow() => place.margin_top,
             None => 0.0,
         };
+        if !figure_width::is_narrow() {
+            let plot_height = ComputedLayout::from_layout(&self.layout()).plot_height();
+            self.height += (self.legend.height() - plot_height).max(0.0);
+        }
         let layout = self.layout();
         let place = ComputedLayout::from_layout(&layout);
         let mut scene = render_multiple(plots, layout);
         finish(&mut scene, &place);
+        self.draw_legend(&mut scene, &place);
         Figure {
             name: self.head.name.clone(),
             title: match self.head.caption.as_str() {
@@ -115,6 +122,22 @@ impl<'a> Frame<'a> {
                 caption => format!("{}: {caption}", self.head.title),
             },
             svg: SvgBackend::new().render_scene(&scene),
+        }
+    }
+
+    /// Beside the plot, or below a narrow one, whose drawing grows by it.
+    fn draw_legend(&self, scene: &mut Scene, place: &ComputedLayout) {
+        if self.legend.is_empty() {
+            return;
+        }
+        let (left, width) = (place.margin_left, place.plot_width());
+        if figure_width::is_narrow() {
+            let top = scene.height;
+            self.legend.draw_below(scene, left, top, width);
+            scene.height += self.legend.height_below(width);
+        } else {
+            let right = left + width;
+            self.legend.draw_beside(scene, right, place.margin_top);
         }
     }
 
@@ -162,20 +185,13 @@ impl<'a> Frame<'a> {
         for mark in &self.marks {
             layout = layout.with_reference_line(mark.clone());
         }
-        let layout = if self.legend.is_empty() {
-            let left = ComputedLayout::from_layout(&layout).margin_left;
-            layout.with_force_margins(left, self.right_margin.unwrap_or(RIGHT_MARGIN))
-        } else {
-            let position = match figure_width::is_narrow() {
-                true => LegendPosition::OutsideBottomColumns,
-                false => LegendPosition::OutsideRightTop,
-            };
-            layout
-                .with_legend_entries(self.legend.clone())
-                .with_legend_position(position)
-                .with_legend_box(false)
+        let left = ComputedLayout::from_layout(&layout).margin_left;
+        let beside = !self.legend.is_empty() && !figure_width::is_narrow();
+        let right = match beside {
+            true => self.legend.width(),
+            false => self.right_margin.unwrap_or(RIGHT_MARGIN),
         };
-        self.fit_texts(layout)
+        self.fit_texts(layout.with_force_margins(left, right))
     }
 
     /// Adds title and caption and wraps all texts to the space they have: they stand centred on the plot.
@@ -185,9 +201,8 @@ impl<'a> Frame<'a> {
         let width = 2.0 * middle.min(figure_width::pixels() - middle);
         let chars = |space: f64, size: u32| (space / (CHAR_WIDTH * f64::from(size))) as usize;
         let (title, caption) = (chars(width, title_size()), chars(width, CAPTION_SIZE));
-        let lines = if figure_width::is_narrow() { 2 } else { 1 };
         let layout = layout
-            .with_title(plain(&self.head.title, lines * title))
+            .with_title(plain(&self.head.title, TITLE_LINES * title))
             .with_title_wrap(title)
             .with_x_label_wrap(chars(width, LABEL_SIZE))
             .with_y_label_wrap(chars(0.8 * self.height, LABEL_SIZE));
@@ -195,7 +210,10 @@ impl<'a> Frame<'a> {
             return layout;
         }
         layout
-            .with_subtitle(plain(&self.head.caption, (2 * caption).saturating_sub(10)))
+            .with_subtitle(plain(
+                &self.head.caption,
+                (CAPTION_LINES * caption).saturating_sub(10),
+            ))
             .with_subtitle_size(CAPTION_SIZE)
             .with_subtitle_wrap(caption)
     }

@@ -9,6 +9,7 @@ use crate::{
     Axis, Figure, Mark,
     chart_methods::chart_methods,
     frame::{Frame, Head},
+    legend::Legend,
     mark, palette,
     primitives::{bar, border},
 };
@@ -99,7 +100,7 @@ impl Histogram {
         let (low, width, parts) = self.bins();
         let y = Self::y();
         let frame = Frame {
-            legend: mark::entries(&self.marks).collect(),
+            legend: Legend::new(mark::entries(&self.marks)),
             ..Frame::new(&self.head, [&self.x, &y], self.extents())
         };
         // Axes are drawn only for a plot, so there is one without content.

@@ -1,8 +1,11 @@
 //! Chart of residual velocity versus impact velocity, and its figure.
 
+use std::collections::BTreeMap;
+
 use percuss::{
     Scenario,
     limit::{LimitOutcome, Limits, ModelLimit},
+    model::label,
     outcome::BandQuantity,
 };
 
@@ -17,7 +20,7 @@ const POINTS: u32 = 200;
 const COINCIDE: f64 = 2e-3;
 
 /// Draws residual velocities of all models, their Lambert-Jonas curves, and measured values, as `limit`; `None` when no model has a
-/// limit. Models whose limit is an input have a dashed curve without points.
+/// limit. Models whose limit is an input have a curve without points.
 pub fn limit_figure(scenario: &Scenario, limits: &Limits) -> Option<Figure> {
     limit_chart(scenario, limits).map(|chart| chart.draw())
 }
@@ -36,13 +39,14 @@ pub fn limit_chart(scenario: &Scenario, limits: &Limits) -> Option<Chart> {
         Axis::new("Impact velocity (m/s)"),
         Axis::new("Residual velocity (m/s)"),
     )
+    .values("limit", "m/s")
     .caption(caption(scenario, None));
-    let found = coinciding(found().map(|(_, limit)| limit));
-    for (symbol, models) in found.iter().enumerate() {
-        chart = series(chart, models, symbol);
+    let symbols = symbols(limits);
+    for models in coinciding(found().map(|(_, limit)| limit)) {
+        chart = series(chart, &models, symbols[models[0].model]);
     }
-    for (place, models) in coinciding(inputs()).iter().enumerate() {
-        chart = input_curve(chart, models, found.len() + place);
+    for models in coinciding(inputs()) {
+        chart = input_curve(chart, &models, symbols[models[0].model]);
     }
     let measured: Vec<_> = limits
         .experiments
@@ -63,15 +67,13 @@ pub fn limit_chart(scenario: &Scenario, limits: &Limits) -> Option<Chart> {
     if let Some((value, half_width)) =
         axisymmetric.and_then(|l| l.ballistic_limit_m_s.zip(l.uncertainty_m_s))
     {
-        let name = format!(
-            "axisymmetric limit {}",
-            with_uncertainty(value, half_width, "m/s")
-        );
-        chart = chart.mark(Mark::vertical(name, value));
+        let shown = with_uncertainty(value, half_width, "m/s");
+        let shown = shown.trim_end_matches(" m/s");
+        chart = chart.mark(Mark::vertical("axisymmetric", value).shown(shown));
     }
     if let Some((value, _)) = limits.measured() {
-        let name = format!("measured limit {} m/s", significant(value));
-        chart = chart.mark(Mark::vertical(name, value));
+        let mark = Mark::vertical("measured", value);
+        chart = chart.mark(mark.shown(significant(value)));
     }
     Some(chart.into())
 }
@@ -102,8 +104,14 @@ fn coinciding<'a>(limits: impl Iterator<Item = &'a ModelLimit>) -> Vec<Vec<&'a M
 }
 
 fn names(models: &[&ModelLimit]) -> String {
-    let names: Vec<&str> = models.iter().map(|limit| limit.model).collect();
+    let names: Vec<_> = models.iter().map(|limit| label(limit.model)).collect();
     names.join(" and ")
+}
+
+/// Symbols of all models.
+fn symbols(limits: &Limits) -> BTreeMap<&'static str, usize> {
+    let names = || limits.results.iter().map(|limit| limit.model);
+    names().zip(palette::model_symbols(names())).collect()
 }
 
 /// Points and curve of models that coincide; the point at their limit is on the axis.
@@ -114,12 +122,17 @@ fn series(chart: LineChart, models: &[&ModelLimit], symbol: usize) -> LineChart 
     };
     let points = limit.curve.iter();
     let points = points.map(|p| (p.impact_velocity_m_s, p.residual_velocity_m_s));
-    let name = format!("{}, limit {} m/s", names(models), significant(at_limit));
-    let points = Series::new(name, std::iter::once((at_limit, 0.0)).chain(points));
-    let chart = chart.series(points.style(Style::Markers).symbol(symbol));
+    let points = Series::new(
+        names(models),
+        std::iter::once((at_limit, 0.0)).chain(points),
+    )
+    .value(significant(at_limit))
+    .style(Style::Markers)
+    .symbol(symbol);
     let (Some(fit), Some(last)) = (limit.fit, limit.curve.last()) else {
-        return chart;
+        return chart.series(points);
     };
+    let chart = chart.series(points.joined());
     let (from, to) = (fit.ballistic_limit_m_s, last.impact_velocity_m_s);
     let curve = (0..=POINTS).map(|i| {
         // Closer to each other where the curve is steep.
@@ -127,7 +140,7 @@ fn series(chart: LineChart, models: &[&ModelLimit], symbol: usize) -> LineChart 
         let speed = from + (to - from) * part * part;
         (speed, fit.at(speed))
     });
-    chart.series(Series::new("", curve).color(palette::symbol_color(symbol)))
+    chart.series(Series::new("", curve).symbol(symbol))
 }
 
 fn is_input(limit: &ModelLimit) -> bool {
@@ -143,10 +156,9 @@ fn input_curve(chart: LineChart, models: &[&ModelLimit], symbol: usize) -> LineC
     let at = input.ballistic_limit_m_s;
     let points = limit.curve.iter();
     let points = points.map(|p| (p.impact_velocity_m_s, p.residual_velocity_m_s));
-    let name = format!("{}, input {} m/s", names(models), significant(at));
+    let name = format!("{} (input)", names(models));
     let curve = Series::new(name, std::iter::once((at, 0.0)).chain(points));
-    let color = palette::symbol_color(symbol);
-    chart.series(curve.style(Style::Dashed).color(color))
+    chart.series(curve.value(significant(at)).symbol(symbol))
 }
 
 #[cfg(test)]
@@ -157,7 +169,7 @@ mod tests {
         model,
     };
 
-    use super::limit_figure;
+    use super::{Chart, limit_chart, limit_figure};
 
     #[test]
     fn models_whose_points_coincide_share_an_entry() {
@@ -176,7 +188,31 @@ mod tests {
         }
         found.results.extend([twin, other]);
         let svg = limit_figure(&scenario, &found).unwrap().svg;
-        assert!(svg.contains("plugging and twin, limit"), "{svg}");
-        assert!(svg.contains(">other, limit"), "{svg}");
+        assert!(svg.contains(">plugging and twin<"), "{svg}");
+        assert!(svg.contains(">other<"), "{svg}");
+    }
+
+    #[test]
+    fn the_curve_of_a_model_starts_at_its_limit_on_the_axis() {
+        let text = "projectile = { material = '4340-johnson-cook', length = '40 mm', diameter = '20 mm', impact_velocity = '300 m/s' }\n\
+                    target = { material = 'weldox-460-e-borvik', thickness = '8 mm', back_face = 'free' }\n";
+        let scenario = case::load_str("case.toml", text).unwrap();
+        let models = [
+            model::model("plugging").unwrap(),
+            model::model("power_balance").unwrap(),
+        ];
+        let (search, mut observer) = (Search::default(), Observer::default());
+        let found = limits(&models, &scenario, &search, &mut observer).unwrap();
+        let Some(Chart::Lines(chart)) = limit_chart(&scenario, &found) else {
+            panic!("{found:?}");
+        };
+        let mut curves = chart.series.iter().filter(|series| series.name.is_empty());
+        for limit in &found.results {
+            let curve = curves.next().unwrap();
+            let at = limit.ballistic_limit_m_s.unwrap();
+            assert_eq!(curve.points[0], (at, 0.0), "{}", limit.model);
+            assert!(curve.points[1].0 > at && curve.points[1].1 > 0.0);
+        }
+        assert_eq!(found.results.len(), 2);
     }
 }

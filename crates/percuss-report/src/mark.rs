@@ -1,24 +1,24 @@
 //! Lines across a plot that mark a value.
 
-use kuva::plot::legend::{LegendEntry, LegendShape};
 use kuva::render::{
     annotations::ReferenceLine, color::Color, layout::ComputedLayout, render::Primitive,
 };
 
 use serde::Serialize;
 
-use crate::{frame::plain, palette, single};
+use crate::{legend::Entry, palette, single};
 
 /// Dashes of the marks of a chart one after the other [px], short enough for the legend; the last one is a full line.
 const DASHES: [Option<&str>; 4] = [Some("2 2"), Some("5 2.5"), Some("7 2 2 2"), None];
 const WIDTH: f64 = 1.2;
-/// Most characters of a name in the legend.
-const NAME_CHARS: usize = 34;
 
 /// A line across the plot at one value.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Mark {
     pub(crate) name: String,
+    /// Its value in the second column of the legend.
+    #[serde(skip)]
+    pub(crate) shown: String,
     #[serde(serialize_with = "single::number")]
     pub(crate) value: f64,
     pub(crate) vertical: bool,
@@ -29,9 +29,16 @@ impl Mark {
     pub fn horizontal(name: impl Into<String>, y: f64) -> Self {
         Self {
             name: name.into(),
+            shown: String::new(),
             value: y,
             vertical: false,
         }
+    }
+
+    /// Sets its text in the second column of the legend.
+    pub(crate) fn shown(mut self, value: impl Into<String>) -> Self {
+        self.shown = value.into();
+        self
     }
 
     /// A vertical line at `x`; an empty name keeps it out of the legend.
@@ -52,14 +59,11 @@ fn dashed(marks: &[Mark]) -> impl Iterator<Item = (&Mark, Option<&'static str>)>
 }
 
 /// Legend entries of marks.
-pub(crate) fn entries(marks: &[Mark]) -> impl Iterator<Item = LegendEntry> {
+pub(crate) fn entries(marks: &[Mark]) -> impl Iterator<Item = Entry> {
     dashed(marks)
         .filter(|(mark, _)| !mark.name.is_empty())
-        .map(|(mark, dashes)| LegendEntry {
-            label: plain(&mark.name, NAME_CHARS),
-            color: palette::MARK.to_owned(),
-            shape: LegendShape::Line,
-            dasharray: dashes.map(str::to_owned),
+        .map(|(mark, dashes)| {
+            Entry::series(&mark.name, palette::MARK, Some(dashes), None).value(&mark.shown)
         })
 }
 

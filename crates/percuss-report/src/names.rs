@@ -1,6 +1,23 @@
 //! Names of quantities and parameters in figures, with units in parentheses.
 
-use percuss::{summary::result_number, units::ResultUnit};
+use percuss::{material::Library, summary::result_number, units::ResultUnit};
+
+/// Most characters of the name of a material in a legend.
+const MATERIAL_CHARS: usize = 30;
+
+/// Name of a material in a legend: that of its record where it is short enough, otherwise its id.
+pub fn material_label<'a>(name: &'a str, id: &'a str) -> &'a str {
+    match name.chars().count() <= MATERIAL_CHARS {
+        true => name,
+        false => id,
+    }
+}
+
+/// The same of a material of the library; the id of another one.
+pub(crate) fn library_material(id: &str) -> &str {
+    let entry = Library::built_in().iter().find(|entry| entry.id == id);
+    entry.map_or(id, |entry| material_label(&entry.material.name, id))
+}
 
 /// Name with a capital first letter, and its unit in parentheses.
 pub(crate) fn with_unit(name: &str, unit: &str) -> String {
@@ -106,6 +123,17 @@ mod tests {
         ] {
             assert_eq!(parameter(key), name);
         }
+    }
+
+    #[test]
+    fn materials_have_their_names_unless_these_are_long() {
+        assert_eq!(
+            library_material("4340-johnson-cook"),
+            "4340 steel (Johnson–Cook)"
+        );
+        // "304 stainless steel (Steinberg–Guinan)" is longer than a legend shows.
+        assert_eq!(library_material("304-steinberg"), "304-steinberg");
+        assert_eq!(library_material("mine"), "mine");
     }
 
     #[test]

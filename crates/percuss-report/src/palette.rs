@@ -16,31 +16,82 @@ pub const EXPERIMENT: &str = "#000000";
 /// Colours that tell apart series with symbols: all but black, which is what was measured, and yellow, which is faint.
 const SYMBOLS: usize = 6;
 
+/// After so many symbols both colours and the nine markers return.
+pub(crate) const MARKED: usize = 18;
+
 /// Colour of symbol `index`, which has its marker and its dashes as well.
 pub fn symbol_color(index: usize) -> &'static str {
     SERIES[index % SYMBOLS]
 }
 
-/// The symbol of a colour and of dashes: what differs in two ways at once has six colours and four kinds of lines.
-pub(crate) fn symbol(color: usize, dashes: usize) -> usize {
-    color % SYMBOLS + dashes * SYMBOLS
+/// The symbol of a material at one of so many strain rates: it gives the colour, the rate the dashes; the seventh material has the colour
+/// of the first one and other dashes.
+pub(crate) fn flow_symbol(material: usize, rate: usize, rates: usize) -> usize {
+    let round = material / SYMBOLS * rates + rate;
+    material % SYMBOLS + round * SYMBOLS
 }
 
-/// Dashes and gaps of a line [px], and what a legend calls it.
-pub(crate) struct Dashes {
-    pub(crate) pattern: &'static str,
-    pub(crate) word: &'static str,
+/// Dashes and gaps of the kinds of lines [px]: full, dashed, dotted, dash-dotted and so on.
+const DASHES: [Option<&str>; 8] = [
+    None,
+    Some("7 3"),
+    Some("1.5 2.5"),
+    Some("7 2.5 1.5 2.5"),
+    Some("13 3"),
+    Some("7 2 1.5 2 1.5 2"),
+    Some("3 6"),
+    Some("13 2.5 3 2.5"),
+];
+
+/// Dashes and gaps of the lines of a round of colours [px], if any: so differ the lines of one colour, which returns after each round.
+pub(crate) fn dashes(round: usize) -> Option<&'static str> {
+    DASHES[round % DASHES.len()]
 }
 
-/// How the line of symbol `index` is interrupted, if it is: so differ the lines of one colour, which returns after each round.
-pub(crate) fn symbol_dashes(index: usize) -> Option<Dashes> {
-    let (pattern, word) = match (index / SYMBOLS) % 4 {
-        1 => ("7 3", "dashed"),
-        2 => ("1.5 2.5", "dotted"),
-        3 => ("7 2.5 1.5 2.5", "dash-dotted"),
-        _ => return None,
-    };
-    Some(Dashes { pattern, word })
+/// Dashes and gaps of the line of symbol `index` [px], if any.
+pub(crate) fn symbol_dashes(index: usize) -> Option<&'static str> {
+    dashes(index / SYMBOLS)
+}
+
+/// The models in the order of their symbols: those that are often in one figure differ in colour.
+const MODELS: [&str; 23] = [
+    "chain",
+    "fdm",
+    "axi",
+    "energy_balance",
+    "momentum_balance",
+    "crater_energy",
+    "plate_cavity",
+    "tate",
+    "power_balance",
+    "plugging",
+    "awerbuch_bodner",
+    "recht_ipson",
+    "hydrodynamic",
+    "walker_anderson",
+    "lambert_jonas",
+    "forrestal",
+    "poncelet",
+    "lanz_odermatt",
+    "cavity_expansion",
+    "forrestal_concrete",
+    "particles",
+    "wilkins_guinan",
+    "taylor",
+];
+
+/// Symbols of the models of a figure: a model has the same one in every figure. Variants of a model, as `chain: column`, and models
+/// that are not in the list have those after them, in their order.
+pub fn model_symbols<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<usize> {
+    let mut taken: Vec<usize> = Vec::new();
+    for name in names {
+        let model = name.split(':').next().unwrap_or(name);
+        let own = MODELS.iter().position(|known| *known == model);
+        let others = taken.iter().filter(|symbol| **symbol >= MODELS.len());
+        let free = MODELS.len() + others.count();
+        taken.push(own.filter(|own| !taken.contains(own)).unwrap_or(free));
+    }
+    taken
 }
 
 /// Colour of failed runs.
@@ -48,6 +99,11 @@ pub(crate) const FAILED: &str = "#b3001b";
 
 /// Colour of missing values in a heat map.
 pub const NO_VALUE: &str = "#b4b4b4";
+
+/// Dashes and gaps of series `index` [px], if any: after the last colour the lines differ by them.
+pub(crate) fn series_dashes(index: usize) -> Option<&'static str> {
+    dashes(index / SERIES.len())
+}
 
 /// Colour of series `index`; after the last colour the first one returns.
 pub fn series(index: usize) -> &'static str {
@@ -86,5 +142,32 @@ pub(crate) fn body(index: u8) -> [u8; 3] {
     match index.checked_sub(1) {
         None => [0xa9, 0xbf, 0xd6],
         Some(layer) => LAYERS[usize::from(layer) % LAYERS.len()],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use percuss::model;
+
+    use super::*;
+
+    #[test]
+    fn every_model_has_a_colour_and_dashes_of_its_own() {
+        let names: Vec<&str> = model::MODELS.iter().map(|model| model.name()).collect();
+        let symbols = model_symbols(names.iter().copied());
+        let looks: Vec<_> = symbols
+            .iter()
+            .map(|symbol| (symbol_color(*symbol), symbol_dashes(*symbol)))
+            .collect();
+        for (i, look) in looks.iter().enumerate() {
+            assert!(symbols[i] < MODELS.len(), "{}", names[i]);
+            assert!(!looks[..i].contains(look), "{}", names[i]);
+        }
+        // It is the same in another figure.
+        assert_eq!(model_symbols(["plugging", "chain"]), [9, 0]);
+        assert_eq!(
+            model_symbols(["chain: column", "mine", "chain: diverging", "fdm"]),
+            [0, 23, 24, 1]
+        );
     }
 }

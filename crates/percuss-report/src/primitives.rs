@@ -1,15 +1,9 @@
 //! Drawing primitives that the plotting library lacks.
 
-use kuva::plot::legend::{LegendEntry, LegendShape};
 use kuva::render::{
     color::Color,
     render::{PathData, Primitive, TextAnchor},
 };
-
-use crate::frame::plain;
-
-/// Most characters of a name in the legend.
-const NAME_CHARS: usize = 34;
 
 /// An area in one colour.
 pub(crate) fn filled(path: String, color: &str) -> Primitive {
@@ -61,16 +55,6 @@ pub(crate) fn bar(from: (f64, f64), to: (f64, f64), color: &str) -> Primitive {
         stroke: None,
         stroke_width: None,
         opacity: None,
-    }
-}
-
-/// Legend entry of an area.
-pub(crate) fn area_entry(name: &str, color: &str) -> LegendEntry {
-    LegendEntry {
-        label: plain(name, NAME_CHARS),
-        color: color.to_owned(),
-        shape: LegendShape::Rect,
-        dasharray: None,
     }
 }
 

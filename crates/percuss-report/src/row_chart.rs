@@ -7,6 +7,7 @@ use crate::{
     Axis, Figure, Mark,
     chart_methods::chart_methods,
     frame::{Frame, Head, plain},
+    legend::Legend,
     mark, single,
 };
 
@@ -104,7 +105,7 @@ impl RowChart {
         let extents = (self.extent(), (0.5, count.max(1.0) + 0.5));
         let frame = Frame {
             height: SURROUNDINGS + ROW * count.max(2.0),
-            legend: mark::entries(&self.marks).collect(),
+            legend: Legend::new(mark::entries(&self.marks)),
             marks: mark::reference_lines(&self.marks),
             ..Frame::new(&self.head, [&self.x, &y], extents)
         };

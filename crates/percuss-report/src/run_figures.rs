@@ -2,6 +2,7 @@
 
 use percuss::{
     Scenario,
+    model::label,
     outcome::{BandQuantity, RunResult},
     summary::ResultRecord,
 };
@@ -46,7 +47,7 @@ pub fn run_charts(
 ) -> Result<Vec<Chart>, ReportError> {
     let history = history_of(result)?;
     let case = caption(scenario, Some(scenario.impact_velocity));
-    let caption = format!("{case}; model {}", result.model);
+    let caption = format!("{case}; model {}", label(result.model));
     let (first, last) = (
         &history.samples[0],
         &history.samples[history.samples.len() - 1],

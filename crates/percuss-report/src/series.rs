@@ -27,6 +27,12 @@ impl Style {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
     pub(crate) name: String,
+    /// Text of the second column of the legend.
+    pub(crate) value: String,
+    /// Name of the band in the legend; none where it is empty.
+    pub(crate) band_name: String,
+    /// Whether another series draws a line through its markers.
+    pub(crate) joined: bool,
     pub(crate) points: Vec<(f64, f64)>,
     pub(crate) errors: Vec<(f64, f64)>,
     pub(crate) style: Style,
@@ -41,6 +47,9 @@ impl Series {
     pub fn new(name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self {
             name: name.into(),
+            value: String::new(),
+            band_name: String::new(),
+            joined: false,
             points: points.into_iter().collect(),
             errors: Vec::new(),
             style: Style::Line,
@@ -69,7 +78,7 @@ impl Series {
         self
     }
 
-    /// Sets colour, marker and dashes together: up to 18 symbols differ in colour and marker.
+    /// Sets colour, marker and dashes together: up to 48 symbols differ in colour and marker, and in colour and dashes.
     pub fn symbol(mut self, index: usize) -> Self {
         self.color = Some(crate::palette::symbol_color(index).to_owned());
         self.symbol = Some(index);
@@ -79,6 +88,24 @@ impl Series {
     /// Adds a translucent area: its lower and upper end at each point. An end that is not finite leaves a gap.
     pub fn band(mut self, ends: impl IntoIterator<Item = (f64, f64)>) -> Self {
         self.band = ends.into_iter().collect();
+        self
+    }
+
+    /// Sets the text of the second column of the legend.
+    pub(crate) fn value(mut self, value: impl Into<String>) -> Self {
+        self.value = value.into();
+        self
+    }
+
+    /// Names the band in the legend.
+    pub(crate) fn band_name(mut self, name: impl Into<String>) -> Self {
+        self.band_name = name.into();
+        self
+    }
+
+    /// Shows a line in the legend: another series draws it through the markers.
+    pub(crate) fn joined(mut self) -> Self {
+        self.joined = true;
         self
     }
 

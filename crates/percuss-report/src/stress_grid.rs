@@ -5,6 +5,9 @@ use percuss::history::{ElementState, Profile};
 /// Neighbouring elements farther apart than this many spacings have lost one between them.
 pub(crate) const GAP: f64 = 1.6;
 
+/// Times in a row of the grid that its stresses are the mean of: a wave that crosses many columns within a row is a line then.
+const TIMES_PER_ROW: usize = 4;
+
 /// Stress on a regular grid over initial position and time.
 #[derive(Debug)]
 pub(crate) struct StressGrid {
@@ -17,7 +20,8 @@ pub(crate) struct StressGrid {
 }
 
 impl StressGrid {
-    /// Interpolates between elements of a part and between profiles; `None` without two profiles of different times.
+    /// Interpolates between elements of a part and between profiles, and takes the mean over the time of a row; `None` without two
+    /// profiles of different times.
     pub(crate) fn resample(profiles: &[Profile], [columns, rows]: [usize; 2]) -> Option<Self> {
         let (first, last) = (profiles.first()?, profiles.last()?);
         if first.elements.is_empty() || last.time <= first.time {
@@ -44,8 +48,12 @@ impl StressGrid {
         let places: Vec<f64> = (0..columns)
             .map(|i| middle(positions, i, columns))
             .collect();
-        let row = |j| {
-            let time = middle(times, j, rows);
+        let on_grid: Vec<Vec<f64>> = profiles
+            .iter()
+            .map(|profile| stresses(profile, &places, &spacings))
+            .collect();
+        // Adds a time to the sums and the counts of the columns.
+        let add = |time: f64, sums: &mut [(f64, f64)]| {
             let after = profiles
                 .partition_point(|profile| profile.time <= time)
                 .clamp(1, profiles.len() - 1);
@@ -55,14 +63,31 @@ impl StressGrid {
             } else {
                 0.0
             };
-            let earlier = stresses(a, &places, &spacings);
-            let later = stresses(b, &places, &spacings);
-            let between = |(a, b): (f64, f64)| match b.is_nan() {
-                true if share < 0.5 => a,
-                true => b,
-                false => a + share * (b - a),
+            let (earlier, later) = (&on_grid[after - 1], &on_grid[after]);
+            for (sum, (a, b)) in sums.iter_mut().zip(earlier.iter().zip(later)) {
+                let stress = match b.is_nan() {
+                    true if share < 0.5 => *a,
+                    true => *b,
+                    false => a + share * (b - a),
+                };
+                if !stress.is_nan() {
+                    *sum = (sum.0 + stress, sum.1 + 1.0);
+                }
+            }
+        };
+        let row = |j| {
+            let mut sums = vec![(0.0, 0.0); columns];
+            for i in 0..TIMES_PER_ROW {
+                let number = TIMES_PER_ROW * j + i;
+                add(middle(times, number, TIMES_PER_ROW * rows), &mut sums);
+            }
+            // Eroded where it is for most of the row.
+            let enough = 0.5 * TIMES_PER_ROW as f64;
+            let mean = |(sum, count): (f64, f64)| match count >= enough {
+                true => sum / count,
+                false => f64::NAN,
             };
-            earlier.into_iter().zip(later).map(between).collect()
+            sums.into_iter().map(mean).collect()
         };
         Some(Self {
             positions,

@@ -24,6 +24,8 @@ const ENERGY_COLORS: [&str; 15] = [
 const MINOR_ENERGY: f64 = 0.005;
 /// Width of lines that ring [px].
 const RINGING: f64 = 1.0;
+/// Width of a line that another one lies on [px].
+const UNDER: f64 = 3.0;
 /// Colour of the minor lines.
 const MINOR_COLOR: &str = "#d4d4d4";
 
@@ -70,7 +72,7 @@ pub(crate) fn velocity(history: &History, result: &RunResult, caption: &str) -> 
         "Velocity (m/s)",
         caption,
     )
-    .series(series("tip", history, |s| s.tip_velocity).width(RINGING))
+    .series(series("tip", history, |s| s.tip_velocity).width(UNDER))
     .series(series("tail", history, |s| s.tail_velocity));
     if history.samples.iter().any(|s| s.interface_velocity != 0.0) {
         let floor = series("crater floor", history, |s| s.interface_velocity);

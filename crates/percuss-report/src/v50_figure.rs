@@ -11,11 +11,11 @@ const POINTS: u32 = 200;
 pub fn v50_figure(name: &str, tests: &[Test], v50: &V50) -> Figure {
     let mut chart = LineChart::new(
         "v50",
-        format!("Partial and complete penetrations: {name}"),
+        "Partial and complete penetrations",
         Axis::new("Impact velocity (m/s)"),
         Axis::new("Probability of perforation").range(-0.05, 1.05),
     )
-    .caption(caption(v50));
+    .caption(caption(name, v50));
     let (slowest, fastest) = tests
         .iter()
         .fold((f64::MAX, f64::MIN), |(low, high), test| {
@@ -69,7 +69,7 @@ pub fn v50_figure(name: &str, tests: &[Test], v50: &V50) -> Figure {
     if let Some(entry) = v50.of(Method::Probit) {
         chart = marks(chart, entry, &drawn_ends);
         if let (Some(interval), true) = (interval(entry), drawn_ends.is_empty()) {
-            chart = chart.caption(format!("{}; {interval}", caption(v50)));
+            chart = chart.caption(format!("{}; {interval}", caption(name, v50)));
         }
     }
     chart.draw()
@@ -98,9 +98,9 @@ fn interval(entry: &Estimate) -> Option<String> {
     Some(format!("95 % interval {low} to {high} m/s"))
 }
 
-fn caption(v50: &V50) -> String {
+fn caption(name: &str, v50: &V50) -> String {
     format!(
-        "{}: {} partial and {} complete penetrations",
+        "{name}; {}: {} partial and {} complete penetrations",
         match v50.tests {
             1 => "1 test".to_owned(),
             tests => format!("{tests} tests"),

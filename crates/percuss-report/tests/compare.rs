@@ -147,7 +147,7 @@ fn every_model_with_a_value_has_its_line() {
     assert_eq!(figure.name, "compare");
     for text in [
         "chain",
-        "tate ★",
+        "Alekseevskii–Tate ★",
         "experiment",
         "Depth of penetration (mm)",
         "Impact velocity (m/s)",
@@ -167,10 +167,15 @@ fn every_model_with_a_value_has_its_line() {
 fn one_velocity_gives_one_row_per_model() {
     let (scenario, comparison) = comparison(CASE, &[1000.0]);
     let figure = compare_figures(&scenario, &comparison).remove(0);
-    for text in ["chain", "tate ★", "experiment", "Depth of penetration (mm)"] {
+    for text in [
+        "chain",
+        "Alekseevskii–Tate ★",
+        "experiment",
+        "Depth of penetration (mm)",
+    ] {
         assert!(figure.svg.contains(&format!(">{text}</text>")), "{text}");
     }
-    assert!(!figure.svg.contains(">forrestal</text>"));
+    assert!(!figure.svg.contains(">Forrestal</text>"));
     let folder = tempfile::tempdir().unwrap();
     let folder = std::env::var_os("PERCUSS_FIGURES").map_or(folder.path().to_owned(), |path| {
         std::path::Path::new(&path).join("one")

@@ -2,6 +2,7 @@
 
 use percuss::{
     calibrate::{Calibration, Prediction},
+    model::label,
     outcome::BandQuantity,
 };
 
@@ -13,7 +14,7 @@ pub(super) fn chart(calibration: &Calibration) -> LineChart {
         "predictive",
         format!(
             "Relative error of model {} after calibration",
-            calibration.model
+            label(&calibration.model)
         ),
         Axis::new("Impact velocity (m/s)"),
         Axis::new("Predicted / measured - 1 (%)"),

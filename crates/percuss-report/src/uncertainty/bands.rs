@@ -2,6 +2,7 @@
 
 use percuss::{
     Scenario,
+    model::label,
     outcome::BandQuantity,
     uncertainty::{QuantityResult, Statistics, Uncertainty},
 };
@@ -9,7 +10,7 @@ use percuss::{
 use super::stem;
 use crate::{
     Axis, LineChart, Mark, Series, Style,
-    caption::{below_heading, caption},
+    caption::{caption, caption_with},
     names::{capitalized, with_unit},
     palette,
 };
@@ -55,7 +56,8 @@ pub(super) fn bands(
     .series(
         Series::new("median", percentile(50.0))
             .color(color)
-            .band(between(5.0, 95.0)),
+            .band(between(5.0, 95.0))
+            .band_name("5th to 95th percentile"),
     )
     .series(
         Series::new("", percentile(50.0))
@@ -122,15 +124,15 @@ pub(super) fn perforation(scenario: &Scenario, found: &Uncertainty) -> Option<Li
     let band = decided.iter().map(|(_, p)| (100.0 * p.low, 100.0 * p.high));
     let mut chart = LineChart::new(
         "perforation",
-        format!("Probability of perforation: {}", scenario.heading()),
+        "Probability of perforation",
         Axis::new("Impact velocity (m/s)"),
         Axis::new("Probability of perforation (%)").range(-4.0, 104.0),
     )
-    .caption(below_heading(
+    .caption(caption_with(
         scenario,
         "band: 95 % interval due to the finite number of runs",
     ))
-    .series(Series::new(format!("model {}", found.model), curve).band(band));
+    .series(Series::new(format!("model {}", label(found.model)), curve).band(band));
     let tests = scenario
         .experiments
         .iter()

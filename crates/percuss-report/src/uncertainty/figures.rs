@@ -2,13 +2,14 @@
 
 use percuss::{
     Scenario,
+    model::label,
     uncertainty::{Estimate, QuantityResult, TornadoBar, Uncertainty},
     units::significant,
 };
 
 use super::stem;
 use crate::{
-    Axis, Bar, BarRows, Histogram, LineChart, Mark, Series, Style, caption::below_heading, names,
+    Axis, Bar, BarRows, Histogram, LineChart, Mark, Series, Style, caption::caption_with, names,
     names::with_unit as label_with_unit, palette,
 };
 
@@ -17,8 +18,8 @@ fn axis(quantity: &QuantityResult) -> Axis {
     Axis::new(label_with_unit(what.label, what.unit.symbol))
 }
 
-fn title(start: &str, quantity: &QuantityResult, scenario: &Scenario) -> String {
-    format!("{start} {}: {}", quantity.what().label, scenario.heading())
+fn title(start: &str, quantity: &QuantityResult) -> String {
+    format!("{start} {}", quantity.what().label)
 }
 
 fn with_unit(value: f64, unit: &str) -> String {
@@ -42,19 +43,19 @@ pub(super) fn histogram(
             value,
         )
     };
-    let title = title("Distribution of the", quantity, scenario);
+    let title = title("Distribution of the", quantity);
     let mut chart = Histogram::new(
         format!("histogram-{}", stem(quantity.quantity)),
         title,
         axis(quantity),
         values,
     )
-    .caption(below_heading(
+    .caption(caption_with(
         scenario,
         &format!(
             "{} runs, model {}, standard deviation {}",
             statistics.runs,
-            found.model,
+            label(found.model),
             with_unit(statistics.standard_deviation, what.unit.symbol)
         ),
     ))
@@ -80,11 +81,11 @@ pub(super) fn tornado(
     let name = format!("tornado-{}", stem(quantity.quantity));
     let mut chart = BarRows::new(
         name,
-        title("Tornado chart of the", quantity, scenario),
+        title("Tornado chart of the", quantity),
         axis(quantity),
         1,
     )
-    .caption(below_heading(
+    .caption(caption_with(
         scenario,
         "one parameter at a time, all others at their medians",
     ))
@@ -124,19 +125,14 @@ pub(super) fn indices(scenario: &Scenario, quantity: &QuantityResult) -> Option<
     let [first_color, total_color] = [palette::SERIES[2], palette::SERIES[4]];
     let name = format!("indices-{}", stem(quantity.quantity));
     let x = Axis::new("Fraction of variance");
-    let mut chart = BarRows::new(
-        name,
-        title("Sobol' indices of the", quantity, scenario),
-        x,
-        2,
-    )
-    .caption(below_heading(
-        scenario,
-        &format!("{} sample rows, 95 % intervals", indices.rows),
-    ))
-    .color("first-order index", first_color)
-    .color("total-effect index", total_color)
-    .mark(Mark::vertical("", 0.0));
+    let mut chart = BarRows::new(name, title("Sobol' indices of the", quantity), x, 2)
+        .caption(caption_with(
+            scenario,
+            &format!("{} sample rows, 95 % intervals", indices.rows),
+        ))
+        .color("first-order index", first_color)
+        .color("total-effect index", total_color)
+        .mark(Mark::vertical("", 0.0));
     let mut sorted: Vec<_> = indices.parameters.iter().collect();
     sorted.sort_by(|a, b| b.total.value.total_cmp(&a.total.value));
     for index in sorted {
@@ -171,18 +167,20 @@ pub(super) fn axisymmetric(scenario: &Scenario, found: &Uncertainty) -> Option<L
     let chart = LineChart::new(
         format!("axisymmetric-{}", stem(spread.quantity)),
         format!(
-            "Axisymmetric {} against {}: {}",
+            "Axisymmetric {} against model {}",
             what.label,
-            found.model,
-            scenario.heading()
+            label(found.model)
         ),
         Axis::new(label_with_unit(
-            &format!("{} by {}", what.label, found.model),
+            &format!("{} by model {}", what.label, label(found.model)),
             unit,
         )),
-        Axis::new(label_with_unit(&format!("{} by axi", what.label), unit)),
+        Axis::new(label_with_unit(
+            &format!("{} by model {}", what.label, label("axi")),
+            unit,
+        )),
     )
-    .caption(below_heading(
+    .caption(caption_with(
         scenario,
         &format!(
             "mean {} ± {}, standard deviation {} ± {}",

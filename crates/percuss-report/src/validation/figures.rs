@@ -4,10 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use percuss::{
     experiments::Kind,
+    model::label,
     validate::{Prediction, Standing, Validation},
 };
 
-use crate::{Axis, Figure, LineChart, Mark, Series, Style, palette};
+use crate::{Axis, Figure, LineChart, Mark, Series, Style, names, palette};
 
 /// Smallest number of points of a figure.
 const FEWEST: usize = 3;
@@ -97,6 +98,7 @@ fn groups<'a>(validation: &'a Validation, kind: Kind, model: &str) -> Groups<'a>
 }
 
 fn series<'a>(
+    kind: Kind,
     groups: &Groups<'a>,
     symbols: &Symbols,
     point: impl Fn(&Prediction) -> (f64, f64),
@@ -108,7 +110,11 @@ fn series<'a>(
     let series = groups.iter().map(|(name, group)| {
         let points = group.iter().map(|prediction| point(prediction));
         let index = symbols.iter().position(|symbol| symbol == name);
-        let series = Series::new(name.trim(), points)
+        let shown = match kind {
+            Kind::Taylor => names::library_material(name.trim()),
+            _ => name.trim(),
+        };
+        let series = Series::new(shown, points)
             .style(style)
             .symbol(index.unwrap_or(0));
         match name.as_str() {
@@ -173,7 +179,7 @@ fn parity(
     };
     let chart = LineChart::new(
         format!("parity-{stem}-{}", model.replace('_', "-")),
-        format!("{title}: {model} versus measurement"),
+        format!("{title}, {} versus measurement", label(model)),
         axis(format!("Measured {unit}")),
         axis(format!("Predicted {unit}")),
     )
@@ -181,7 +187,7 @@ fn parity(
     .series(line(1.0, Style::Line))
     .series(line(1.0 + BAND, Style::Dashed))
     .series(line(1.0 - BAND, Style::Dashed));
-    let chart = series(groups, symbols, point)
+    let chart = series(kind, groups, symbols, point)
         .into_iter()
         .fold(chart, LineChart::series);
     chart.square().draw()
@@ -202,7 +208,7 @@ fn residuals(
     };
     let chart = LineChart::new(
         format!("residuals-{stem}-{}", model.replace('_', "-")),
-        format!("{title}: relative error of {model}"),
+        format!("{title}, relative error of {}", label(model)),
         Axis::new(format!("{speed} (m/s)")),
         Axis::new("Predicted / measured - 1 (%)"),
     )
@@ -213,7 +219,7 @@ fn residuals(
         let error = p.relative_error.unwrap_or(f64::NAN);
         (validation.test(p).impact_velocity, 100.0 * error)
     };
-    let chart = series(groups, symbols, point)
+    let chart = series(kind, groups, symbols, point)
         .into_iter()
         .fold(chart, LineChart::series);
     chart.caption("lines: 0 and ±10 %").draw()

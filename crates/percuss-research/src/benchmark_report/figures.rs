@@ -2,6 +2,7 @@
 
 use percuss::{
     material::Library,
+    model::label,
     model_error::{
         ErrorRecord, candidates,
         design::{LENGTHS, VELOCITIES},
@@ -111,7 +112,7 @@ fn map(verdicts: &[ErrorRecord], candidate: &str) -> Option<Figure> {
     let map = HeatMap::new(
         [
             &format!("error-{}", stem(candidate)),
-            &format!("Median error of {candidate}"),
+            &format!("Median error of {}", label(candidate)),
         ],
         [
             axis("Impact velocity (m/s)", VELOCITIES),
@@ -178,32 +179,34 @@ fn depths(
     }
     let chart = LineChart::new(
         format!("depth-{}-on-{}-{length}", stem(projectile), stem(target)),
-        format!(
-            "{} on {}, L/D {length}",
-            material(projectile),
-            material(target)
-        ),
+        format!("Depth of penetration, L/D {length}"),
         Axis::new("Impact velocity (m/s)"),
         Axis::new("Depth of penetration (mm)").log(),
     )
-    .caption(
-        "candidates of smallest median error; bars: uncertainty of the reference due to its cells",
-    );
-    let chart = names.iter().enumerate().fold(chart, |chart, (i, name)| {
-        let points = own
-            .iter()
-            .filter(|v| v.candidate == *name)
-            .map(|v| (v.impact_velocity_m_s, v.depth_of_penetration_mm));
-        let points: Vec<(f64, f64)> = points.collect();
-        match points.is_empty() {
-            true => chart,
-            false => chart.series(
-                Series::new(*name, points)
-                    .style(Style::LineAndMarkers)
-                    .symbol(i),
-            ),
-        }
-    });
+    .caption(format!(
+        "{} on {}; candidates of smallest median error; bars: uncertainty of the reference due to its cells",
+        material(projectile),
+        material(target)
+    ));
+    let symbols = palette::model_symbols(names.iter().copied());
+    let chart = names
+        .iter()
+        .zip(symbols)
+        .fold(chart, |chart, (name, symbol)| {
+            let points = own
+                .iter()
+                .filter(|v| v.candidate == *name)
+                .map(|v| (v.impact_velocity_m_s, v.depth_of_penetration_mm));
+            let points: Vec<(f64, f64)> = points.collect();
+            match points.is_empty() {
+                true => chart,
+                false => chart.series(
+                    Series::new(label(name), points)
+                        .style(Style::LineAndMarkers)
+                        .symbol(symbol),
+                ),
+            }
+        });
     let bars = reference.iter().map(|v| {
         let size = v.reference_uncertainty_mm;
         // A logarithmic axis cannot show a bar that ends at zero.
@@ -212,7 +215,7 @@ fn depths(
     let points = reference
         .iter()
         .map(|v| (v.impact_velocity_m_s, v.reference_depth_mm));
-    let series = Series::new("axi, the reference", points)
+    let series = Series::new(format!("{}, the reference", label("axi")), points)
         .style(Style::Markers)
         .color(palette::EXPERIMENT)
         .error_bars(bars);

@@ -1,5 +1,6 @@
 //! Figures of the comparison.
 
+use percuss::model::label;
 use percuss_report::{Axis, Figure, LineChart, Mark, RowChart, Series, Style, palette};
 
 use super::{
@@ -80,9 +81,9 @@ fn dimension(study: &DimensionStudy) -> Figure {
     )
     .caption("23.47 mm long, 183 m/s, power law; axi on 4 cells per radius")
     .series(
-        Series::new("axi", points)
+        Series::new(label("axi"), points)
             .style(Style::LineAndMarkers)
-            .symbol(0),
+            .symbol(palette::model_symbols(["axi"])[0]),
     );
     let meshes = [ELEMENTS[0], ELEMENTS[ELEMENTS.len() - 1]];
     let shown = |line: &&LineRun| line.model == "chain" && meshes.contains(&line.elements);

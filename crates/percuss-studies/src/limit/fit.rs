@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::CurvePoint;
+use crate::minimum::least;
 
 /// The curve with its three numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -11,7 +12,7 @@ pub struct LambertJonasFit {
     pub a: f64,
     /// Exponent p.
     pub p: f64,
-    /// Ballistic limit [m/s].
+    /// Ballistic limit [m/s]: that of the model where it was found, otherwise fitted.
     pub ballistic_limit_m_s: f64,
     /// Root mean square of the differences [m/s].
     pub rms_m_s: f64,
@@ -23,6 +24,11 @@ const FEWEST: usize = 4;
 const FACTORS: std::ops::RangeInclusive<f64> = 1e-3..=3.0;
 const EXPONENTS: std::ops::RangeInclusive<f64> = 0.5..=50.0;
 const ITERATIONS: usize = 500;
+/// Fewest points that two numbers are fitted to.
+const FEWEST_AT_LIMIT: usize = 3;
+/// Intervals of ln p that are searched for the least sum of squares, and steps that refine it.
+const INTERVALS: u32 = 48;
+const REFINEMENTS: u32 = 60;
 /// Relative change of the sum of squares that ends the iteration.
 const CONVERGED: f64 = 1e-15;
 
@@ -75,14 +81,10 @@ impl LambertJonasFit {
     }
 }
 
-/// Fits the curve to points above the limit, by the method of Levenberg and Marquardt; `None` for fewer than four points with a
+/// Fits the curve with a free limit to points above it, by the method of Levenberg and Marquardt; `None` for fewer than four points with a
 /// residual velocity, or points that no such curve follows.
 pub fn fit_lambert_jonas(curve: &[CurvePoint]) -> Option<LambertJonasFit> {
-    let points: Vec<(f64, f64)> = curve
-        .iter()
-        .map(|point| (point.impact_velocity_m_s, point.residual_velocity_m_s))
-        .filter(|(_, residual)| *residual > 0.0)
-        .collect();
+    let points = above_limit(curve);
     if points.len() < FEWEST {
         return None;
     }
@@ -112,18 +114,67 @@ pub fn fit_lambert_jonas(curve: &[CurvePoint]) -> Option<LambertJonasFit> {
     Some(fit)
 }
 
+/// Fits `a` and `p` of the curve that starts at a known limit [m/s]: the best `a` of each `p` is known in closed form, and the best `p` is
+/// searched for between its bounds. `None` for fewer than three points with a residual velocity above the limit.
+pub fn fit_lambert_jonas_from(limit: f64, curve: &[CurvePoint]) -> Option<LambertJonasFit> {
+    let mut points = above_limit(curve);
+    points.retain(|(velocity, _)| *velocity > limit);
+    if points.len() < FEWEST_AT_LIMIT {
+        return None;
+    }
+    let lowest = points.iter().map(|point| point.0).reduce(f64::min)?;
+    let (from, to) = (EXPONENTS.start().ln(), EXPONENTS.end().ln());
+    let step = (to - from) / f64::from(INTERVALS);
+    let exponent = |log: f64| log.exp().clamp(*EXPONENTS.start(), *EXPONENTS.end());
+    let squares = |log: f64| {
+        with_best_factor(exponent(log), limit, &points, lowest)
+            .map_or(f64::INFINITY, |fit| fit.squares(&points))
+    };
+    let near = (0..=INTERVALS)
+        .map(|i| from + step * f64::from(i))
+        .min_by(|a, b| squares(*a).total_cmp(&squares(*b)))?;
+    let refined = least(near - step, near + step, REFINEMENTS, squares);
+    // At a bound the least value is on it, and not beside it.
+    let best = match squares(refined) <= squares(near) {
+        true => refined,
+        false => near,
+    };
+    let mut fit = with_best_factor(exponent(best), limit, &points, lowest)?;
+    fit.rms_m_s = (fit.squares(&points) / points.len() as f64).sqrt();
+    Some(fit)
+}
+
+/// Impact and residual velocities of points with a residual velocity.
+fn above_limit(curve: &[CurvePoint]) -> Vec<(f64, f64)> {
+    curve
+        .iter()
+        .map(|point| (point.impact_velocity_m_s, point.residual_velocity_m_s))
+        .filter(|(_, residual)| *residual > 0.0)
+        .collect()
+}
+
+/// The curve of an exponent and a limit with the factor that suits points best.
+fn with_best_factor(
+    p: f64,
+    limit: f64,
+    points: &[(f64, f64)],
+    lowest: f64,
+) -> Option<LambertJonasFit> {
+    let unit = LambertJonasFit::with([1.0, p, limit], lowest)?;
+    let (mut product, mut square) = (0.0, 0.0);
+    for (velocity, residual) in points {
+        product += unit.at(*velocity) * residual;
+        square += unit.at(*velocity).powi(2);
+    }
+    let a = (product / square).clamp(*FACTORS.start(), *FACTORS.end());
+    LambertJonasFit::with([a, p, limit], lowest)
+}
+
 /// The best of a few curves with p = 2 and the factor that suits each of them best.
 fn start(points: &[(f64, f64)], lowest: f64) -> Option<LambertJonasFit> {
-    let candidates = [0.5, 0.8, 0.95, 0.999].into_iter().filter_map(|part| {
-        let unit = LambertJonasFit::with([1.0, 2.0, part * lowest], lowest)?;
-        let (mut product, mut square) = (0.0, 0.0);
-        for (velocity, residual) in points {
-            product += unit.at(*velocity) * residual;
-            square += unit.at(*velocity).powi(2);
-        }
-        let a = (product / square).clamp(*FACTORS.start(), *FACTORS.end());
-        LambertJonasFit::with([a, 2.0, part * lowest], lowest)
-    });
+    let candidates = [0.5, 0.8, 0.95, 0.999].into_iter();
+    let candidates =
+        candidates.filter_map(|part| with_best_factor(2.0, part * lowest, points, lowest));
     candidates.min_by(|a, b| a.squares(points).total_cmp(&b.squares(points)))
 }
 

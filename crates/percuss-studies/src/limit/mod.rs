@@ -43,7 +43,7 @@ use crate::{
 pub use crate::compare::{Observer, Progress};
 pub use axisymmetric::{AxisymmetricLimit, LimitOnMesh};
 pub use expected::ExpectedLimitError;
-pub use fit::{LambertJonasFit, fit_lambert_jonas};
+pub use fit::{LambertJonasFit, fit_lambert_jonas, fit_lambert_jonas_from};
 pub use rear_face::{RearFace, with_free_rear_face};
 
 /// Range of impact velocities [m/s], ends included.
@@ -186,7 +186,7 @@ pub struct ModelLimit {
     pub runs: usize,
     /// Residual velocities above the limit.
     pub curve: Vec<CurvePoint>,
-    /// The curve of Lambert and Jonas through them.
+    /// The curve of Lambert and Jonas through them, which starts at the limit where it was found.
     pub fit: Option<LambertJonasFit>,
     /// Limitations of the numbers.
     pub warnings: Vec<String>,

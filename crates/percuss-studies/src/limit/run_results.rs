@@ -2,6 +2,7 @@
 
 use super::{
     Bracket, CurvePoint, LimitOutcome, ModelLimit, RearFace, fit_lambert_jonas,
+    fit_lambert_jonas_from,
     search::{Passage, Sample, bracket},
     warnings,
 };
@@ -175,8 +176,12 @@ pub(super) fn entry(
     said.extend(warnings::not_monotone(samples, above));
     said.extend(warnings::velocities_without_answer(samples));
     let limit = limit_of(samples);
-    let fit = fit_lambert_jonas(&curve);
-    said.extend(warnings::curve_starts_elsewhere(limit, fit));
+    let free = fit_lambert_jonas(&curve);
+    let fit = match limit {
+        Some(limit) => fit_lambert_jonas_from(limit, &curve),
+        None => free,
+    };
+    said.extend(warnings::curve_starts_elsewhere(limit, free));
     said.extend(warnings::curve_gains_velocity(fit));
     ModelLimit {
         scheme,

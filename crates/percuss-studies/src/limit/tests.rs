@@ -153,7 +153,54 @@ fn the_fit_recovers_other_exponents_and_is_no_curve_for_three_points() {
             "{fit:?}"
         );
         assert_eq!(fit_lambert_jonas(&points[..3]), None);
+        let fixed = fit_lambert_jonas_from(limit, &points[..3]).unwrap();
+        assert!((fixed.a / a - 1.0).abs() < 1e-6, "{fixed:?}");
+        assert!((fixed.p / p - 1.0).abs() < 1e-6, "{fixed:?}");
+        assert_eq!(fixed.ballistic_limit_m_s, limit);
+        assert_eq!(fit_lambert_jonas_from(limit, &points[..2]), None);
     }
+}
+
+#[test]
+fn the_curve_of_a_model_starts_at_the_limit_that_it_found() {
+    // Residual velocities that jump at the limit, by 50 m/s: a free limit would be lower.
+    let leaves = |velocity: f64| 50.0 + 0.9 * (velocity - 210.0);
+    let points: Vec<CurvePoint> = (0..12)
+        .map(|i| 212.0 + 20.0 * f64::from(i))
+        .map(|velocity| CurvePoint {
+            impact_velocity_m_s: velocity,
+            residual_velocity_m_s: leaves(velocity),
+        })
+        .collect();
+    let free = fit_lambert_jonas(&points).unwrap();
+    assert!(free.ballistic_limit_m_s < 209.0, "{free:?}");
+    let fixed = fit_lambert_jonas_from(210.0, &points).unwrap();
+    assert_eq!((fixed.ballistic_limit_m_s, fixed.at(210.0)), (210.0, 0.0));
+    assert!(
+        fixed.at(210.1) > 0.0 && fixed.rms_m_s >= free.rms_m_s,
+        "{fixed:?}"
+    );
+    // The least sum of squares: no neighbour within the bounds is better.
+    let squares = |a: f64, p: f64| -> f64 {
+        let curve = LambertJonasFit { a, p, ..fixed };
+        points
+            .iter()
+            .map(|point| {
+                (curve.at(point.impact_velocity_m_s) - point.residual_velocity_m_s).powi(2)
+            })
+            .sum()
+    };
+    let best = squares(fixed.a, fixed.p);
+    for (a, p) in [(1.001, 1.0), (0.999, 1.0), (1.0, 1.001), (1.0, 0.999)] {
+        assert!(
+            squares(a * fixed.a, p * fixed.p) >= best,
+            "{fixed:?} {a} {p}"
+        );
+    }
+    let found = one(&Plugging, &scenario(BLUNT), &search(0.0, 800.0, 12));
+    let limit = found.ballistic_limit_m_s.unwrap();
+    let fit = found.fit.unwrap();
+    assert_eq!((fit.ballistic_limit_m_s, fit.at(limit)), (limit, 0.0));
 }
 
 #[test]

@@ -35,21 +35,21 @@ pub(super) fn stated_outside(stated: Option<f64>, found: Bracket) -> Option<Stri
     })
 }
 
-/// Part of the limit by which the start of a fitted curve may lie off.
+/// Part of the limit by which the start of a curve with a free limit may lie off.
 const SAME_START: f64 = 0.05;
 
-/// Says that the fitted curve does not start at the limit.
+/// Says that a curve with a free limit would not start at the limit.
 pub(super) fn curve_starts_elsewhere(
     limit: Option<f64>,
-    fit: Option<LambertJonasFit>,
+    free: Option<LambertJonasFit>,
 ) -> Option<String> {
-    let (limit, start) = (limit?, fit?.ballistic_limit_m_s);
+    let (limit, start) = (limit?, free?.ballistic_limit_m_s);
     ((start - limit).abs() > SAME_START * limit).then(|| {
         format!(
-            "the curve through the residual velocities starts at {} m/s and not at the limit, {} m/s: they do not follow the form \
-             of Lambert and Jonas",
-            significant(start, 4),
-            significant(limit, 4)
+            "the residual velocities do not follow the form of Lambert and Jonas: with v_bl fixed at the limit, {} m/s, their curve is rough \
+             near it; a free v_bl would be {} m/s",
+            significant(limit, 4),
+            significant(start, 4)
         )
     })
 }

@@ -38,8 +38,9 @@ is perforated. Every model that predicts perforation gets the same search: 17
 velocities across a range, then bisection between the highest velocity with a
 partial and the lowest with a complete penetration, down to the tolerance. Above
 the limit the residual velocities are computed, and the curve of Lambert and
-Jonas, v_r = a (v^p - v_bl^p)^(1/p), is fitted to them. The output gives the
-reason where a model does not apply or has no limit in the range.
+Jonas, v_r = a (v^p - v_bl^p)^(1/p), is fitted to them with v_bl fixed at the
+limit. The output gives the reason where a model does not apply or has no limit
+in the range.
 
 The axisymmetric model `axi` is searched with on 3, 4 and 6 cells per radius,
 with --reference fine on 6, 8 and 12: its limit is extrapolated to fine meshes,

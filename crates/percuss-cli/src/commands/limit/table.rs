@@ -172,7 +172,7 @@ fn curves(found: &[&ModelLimit]) -> String {
         })
         .numbers("rms", "m/s", |(_, fit)| format!("{:.2}", fit.rms_m_s))
         .table();
-    let title = "residual velocity: v_r = a (v^p - v_bl^p)^(1/p)";
+    let title = "residual velocity: v_r = a (v^p - v_bl^p)^(1/p), v_bl fixed at the limit";
     format!("{}\n{}", bold(title), blocks(&table))
 }
 

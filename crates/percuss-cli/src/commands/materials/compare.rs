@@ -7,7 +7,7 @@ use percuss::{
     material::{Library, MaterialEntry},
     units::{StrainRate, Temperature, significant},
 };
-use percuss_report::{FlowCurve, flow_figure, table::Table};
+use percuss_report::{FlowCurve, flow_figure, material_label, table::Table};
 use serde::Serialize;
 
 use super::show;
@@ -22,8 +22,8 @@ strain rates and at one constant temperature, without pressure. A run heats the
 material as it deforms; a flow curve does not.
 
 With --out DIR the curves are written as flow-curves.json, and drawn as SVG and
-PNG: one colour a material, one kind of line a strain rate. Six colours and four
-kinds of lines differ.";
+PNG: one colour a material, one kind of line a strain rate. Beyond six materials
+colours return with other kinds of lines, so that 48 curves differ.";
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -82,6 +82,8 @@ struct Curve {
 /// A material at a strain rate: plastic strains and stresses [Pa].
 struct Computed<'a> {
     entry: &'a MaterialEntry,
+    /// Name of the material in the legend.
+    label: String,
     /// Numbers of the material and of the rate.
     place: [usize; 2],
     rate: StrainRate,
@@ -109,10 +111,18 @@ impl Compare {
 
     fn compute<'a>(&self, library: &'a Library) -> Result<Vec<Computed<'a>>, Failure> {
         let mut computed = Vec::new();
-        for (material, name) in self.names.iter().enumerate() {
-            let entry = show::find(library, name)?;
+        let found = self.names.iter().map(|name| show::find(library, name));
+        let entries = found.collect::<Result<Vec<_>, _>>()?;
+        for (material, entry) in entries.iter().enumerate() {
+            let name = &entry.material.name;
+            let same = entries.iter().filter(|other| other.material.name == *name);
+            // Records of one name are told apart by their ids.
+            let label = match same.count() {
+                1 => material_label(name, &entry.id),
+                _ => &entry.id,
+            };
             for (index, rate) in self.rate.iter().enumerate() {
-                computed.push(self.curve(entry, *rate, [material, index])?);
+                computed.push(self.curve(entry, label, *rate, [material, index])?);
             }
         }
         Ok(computed)
@@ -121,6 +131,7 @@ impl Compare {
     fn curve<'a>(
         &self,
         entry: &'a MaterialEntry,
+        label: &str,
         rate: StrainRate,
         place: [usize; 2],
     ) -> Result<Computed<'a>, Failure> {
@@ -138,6 +149,7 @@ impl Compare {
         };
         Ok(Computed {
             entry,
+            label: label.to_owned(),
             place,
             rate,
             temperature,
@@ -180,8 +192,8 @@ impl Computed<'_> {
     fn shown(&self) -> FlowCurve {
         let [material, rate] = self.place;
         FlowCurve {
-            // The rate first: a legend shortens long names.
-            name: format!("{}, {}", self.rate, self.entry.id),
+            name: self.label.clone(),
+            rate_name: self.rate.to_string(),
             material,
             rate,
             points: self.curve.clone(),

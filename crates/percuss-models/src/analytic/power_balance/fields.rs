@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::flow::Flow;
+use crate::minimum::least;
 
 /// Uniaxial over shear flow stress (von Mises).
 const SQRT_3: f64 = 1.732_050_807_568_877_2;
@@ -83,30 +84,6 @@ pub(super) fn rim(flow: &Flow, slip: &Slip) -> Rim {
     let high = (best.width / NARROWER).min(slip.radius).max(low);
     let width = least(low.ln(), high.ln(), REFINEMENTS, |x| at(x.exp()).stress).exp();
     at(width.max(narrowest))
-}
-
-/// Place of the least value of a function between two places that enclose one minimum: golden section.
-pub(super) fn least(
-    mut low: f64,
-    mut high: f64,
-    steps: u32,
-    mut value: impl FnMut(f64) -> f64,
-) -> f64 {
-    const GOLDEN: f64 = 0.618_033_988_749_894_8;
-    let (mut left, mut right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
-    let (mut at_left, mut at_right) = (value(left), value(right));
-    for _ in 0..steps {
-        if at_left < at_right {
-            (high, right, at_right) = (right, left, at_left);
-            left = high - GOLDEN * (high - low);
-            at_left = value(left);
-        } else {
-            (low, left, at_left) = (left, right, at_right);
-            right = low + GOLDEN * (high - low);
-            at_right = value(right);
-        }
-    }
-    if at_left < at_right { left } else { right }
 }
 
 /// Distance of the places by which a minimum is refined; the parabola's error is of the fourth power.

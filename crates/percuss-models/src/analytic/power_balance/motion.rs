@@ -2,12 +2,12 @@
 
 use super::{
     bulge::Bulge,
-    fields::{Dish, HoleStress, Rim, least},
+    fields::{Dish, HoleStress, Rim},
     flow::Flow,
     forces::Forces,
     links::{BODIES, Body, Row, Step, potential, step},
 };
-use crate::{material::PreparedDamage, problem::Nose};
+use crate::{material::PreparedDamage, minimum::least, problem::Nose};
 
 /// A rigid projectile against one plate.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use percuss::statistics::sorted;
+use percuss::{model, statistics::sorted};
 
 use super::{
     super::{
@@ -189,6 +189,9 @@ impl<'a> Data<'a> {
     pub(super) fn word(&self, parameter: usize, value: f64) -> String {
         let varied = &self.parameters()[parameter];
         match varied.words.get(value as usize) {
+            Some(word) if varied.key.ends_with(".material") => {
+                names::library_material(word).to_owned()
+            }
             Some(word) => word.clone(),
             None => crate::frame::tick_label(value),
         }
@@ -197,9 +200,13 @@ impl<'a> Data<'a> {
     /// Name of the curve of a value, with the name of the parameter for a number.
     pub(super) fn curve(&self, parameter: usize, value: f64) -> String {
         let word = self.word(parameter, value);
-        let key = &self.parameters()[parameter].key;
+        let varied = &self.parameters()[parameter];
+        let unit = match varied.unit.as_str() {
+            "" => String::new(),
+            unit => format!(" {unit}"),
+        };
         match self.is_numeric(parameter) {
-            true => format!("{} {word}", names::parameter(key)),
+            true => format!("{} {word}{unit}", names::parameter(&varied.key)),
             false => word,
         }
     }
@@ -214,20 +221,29 @@ impl<'a> Data<'a> {
     }
 
     pub(super) fn title(&self) -> String {
-        let titles = [&self.manifest.title, &self.manifest.case_title];
-        match titles.into_iter().find(|title| !title.is_empty()) {
-            None => quantity::title(self.quantity),
-            Some(title) => title.clone(),
+        match self.manifest.title.as_str() {
+            "" => quantity::title(self.quantity),
+            title => title.to_owned(),
         }
     }
 
-    /// Number of runs, with the numbers of those that the figure cannot show.
+    /// Title of the case, or its name.
+    fn heading(&self) -> &str {
+        match self.manifest.case_title.as_str() {
+            "" => &self.manifest.case,
+            title => title,
+        }
+    }
+
+    /// Heading and number of runs, with the numbers of those that the figure cannot show.
     pub(super) fn caption(&self, more: &str) -> String {
         let all = self.all();
         let rows = self.rows.values.len();
         let mut text = format!(
-            "{}, model {}, {}: {rows} runs",
-            self.manifest.case, self.manifest.model, self.manifest.design
+            "{}; model {}, {}: {rows} runs",
+            self.heading(),
+            model::label(&self.manifest.model),
+            self.manifest.design
         );
         for (count, what) in [
             (u64::from(all.failed), "failed"),
