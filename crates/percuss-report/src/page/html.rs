@@ -113,7 +113,11 @@ impl Writer {
         let class = |number: bool| if number { " class=\"n\"" } else { "" };
         self.text += "<div class=\"wide\" tabindex=\"0\"><table>\n";
         // Pairs of a name and a value have no headings.
-        if table.columns.iter().any(|column| !column.title().is_empty()) {
+        if table
+            .columns
+            .iter()
+            .any(|column| !column.title().is_empty())
+        {
             self.text += "<thead><tr>";
             for column in &table.columns {
                 let (class, title) = (class(column.numbers), escape(&column.title()));
