@@ -7,7 +7,7 @@ use percuss::{
 };
 use percuss_report::escape_html;
 
-use crate::{assets, http};
+use crate::{assets, constants::quantity, http};
 
 /// Digits of the numbers of the table.
 const DIGITS: usize = 3;
@@ -110,12 +110,23 @@ fn law(material: &Material) -> String {
         .map(|(symbol, value)| {
             // The key in a file follows the symbol in parentheses.
             let symbol = symbol.split(" (").next().unwrap_or(symbol);
-            format!("{symbol} {value}")
+            format!("{symbol} {}", short(&value))
         })
         .collect();
     match constants.is_empty() {
         true => name,
         false => format!("{name}: {}", constants.join(", ")),
+    }
+}
+
+/// A number, with or without a unit, to a few digits.
+fn short(value: &str) -> String {
+    let (number, unit) = quantity(value).unwrap_or((f64::NAN, ""));
+    match value.parse().unwrap_or(number) {
+        number if number.is_finite() => format!("{} {unit}", significant(number, DIGITS))
+            .trim_end()
+            .to_owned(),
+        _ => value.to_owned(),
     }
 }
 
@@ -156,5 +167,12 @@ mod tests {
             line.starts_with("power law: σ₀ ") && line.contains(" MPa, n "),
             "{line}"
         );
+        for (value, shown) in [
+            ("2.94827 GPa", "2.95 GPa"),
+            ("0.09342", "0.0934"),
+            ("true", "true"),
+        ] {
+            assert_eq!(short(value), shown);
+        }
     }
 }

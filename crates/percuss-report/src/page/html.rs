@@ -111,12 +111,21 @@ impl Writer {
 
     fn table(&mut self, table: &Table) {
         let class = |number: bool| if number { " class=\"n\"" } else { "" };
-        self.text += "<div class=\"wide\" tabindex=\"0\"><table>\n<thead><tr>";
-        for column in &table.columns {
-            let (class, title) = (class(column.numbers), escape(&column.title()));
-            self.text += &format!("<th{class}>{title}</th>");
+        self.text += "<div class=\"wide\" tabindex=\"0\"><table>\n";
+        // Pairs of a name and a value have no headings.
+        if table
+            .columns
+            .iter()
+            .any(|column| !column.title().is_empty())
+        {
+            self.text += "<thead><tr>";
+            for column in &table.columns {
+                let (class, title) = (class(column.numbers), escape(&column.title()));
+                self.text += &format!("<th{class}>{title}</th>");
+            }
+            self.text += "</tr></thead>\n";
         }
-        self.text += "</tr></thead>\n<tbody>\n";
+        self.text += "<tbody>\n";
         for index in 0..table.len() {
             self.text += "<tr>";
             for (cell, column) in table.row(index).zip(&table.columns) {

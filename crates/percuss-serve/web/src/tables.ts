@@ -14,6 +14,8 @@ export function comparison(study: Comparison): HTMLElement[] {
   const given = results.filter((result) => result.outcome !== "not_applicable" && result.outcome !== "failed");
   const chosen = new Map(recommended[0]?.models.map((choice) => [choice.model, choice.because]));
   const head = ["model", ...study.quantities.flatMap((q) => [withUnit(q.words, q.unit), ...(q.measured === null ? [] : ["difference (%)"])])];
+  // The source that the example of the study Calibrate has.
+  const isExample = study.comparison.experiments.some(({ sources }) => sources.includes("example"));
   const lines = given.map((result) => [
     chosen.has(result.model) ? `${result.model} ★` : result.model,
     ...study.quantities.flatMap((quantity) => {
@@ -23,12 +25,13 @@ export function comparison(study: Comparison): HTMLElement[] {
     }),
   ]);
   if (study.quantities.some((quantity) => quantity.measured !== null)) {
-    lines.push(["experiment", ...study.quantities.flatMap((q) => [figure(q.measured), ...(q.measured === null ? [] : [""])])]);
+    lines.push([isExample ? "example, no experiment" : "experiment", ...study.quantities.flatMap((q) => [figure(q.measured), ...(q.measured === null ? [] : [""])])]);
   }
   const said = [make("p", {}, make("b", {}, "Regime: "), study.regimes[0] ?? "")];
   for (const [model, because] of chosen) said.push(make("p", {}, make("b", {}, `Recommended: ${model} ★ `), because));
   const note = recommended[0]?.note;
   if (note) said.push(make("p", {}, note));
+  if (isExample) said.push(make("p", {}, "What the charts show as experiments are values of the example that Calibrate has put into the case, and no measurements."));
   const absent = results.filter((result) => !given.includes(result));
   const reasons = make("details", {}, make("summary", {}, `${absent.length} models do not apply`),
     make("ul", {}, ...absent.map((result) => make("li", {}, make("b", {}, `${result.model}: `), result.reason ?? ""))));

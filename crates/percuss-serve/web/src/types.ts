@@ -121,6 +121,7 @@ export interface Comparison extends Study {
   comparison: {
     regime: { impact_velocity_m_s: number }[];
     recommended: { models: { model: string; because: string }[]; note: string | null }[];
+    experiments: { sources: string[] }[];
     results: Result[];
   };
 }

@@ -144,6 +144,8 @@ test("a case without measured values is given an example of them", async () => {
   assert.match(await page.locator("#text").inputValue(), /They are no measurements[^]*\[\[experiments\]\][^]*source = "example"/);
   assert.ok(await page.locator("#problem").isHidden());
   assert.match(await of.innerText(), /Power-law coefficient, copper \(MPa\)/);
+  // What stands beside the models is called no experiment.
+  await page.locator("#comparison-body").getByText("example, no experiment").waitFor();
   // The example is there already.
   await start(of, "Calibrate");
   await of.getByText("Measured and predicted values").waitFor({ timeout: 60_000 });
