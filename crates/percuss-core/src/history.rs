@@ -187,8 +187,8 @@ pub struct Recorder {
     history: History,
     sample_stride: u64,
     profile_stride: u64,
-    /// Number of the profiles of the first waves, and their stride.
-    wave_profiles: usize,
+    /// Steps in which the first waves are followed, and the stride of their profiles.
+    wave_steps: u64,
     wave_stride: u64,
 }
 
@@ -206,7 +206,7 @@ impl Recorder {
             },
             sample_stride: 1,
             profile_stride: 1,
-            wave_profiles: 0,
+            wave_steps: 0,
             wave_stride: 1,
         }
     }
@@ -218,7 +218,7 @@ impl Recorder {
 
     /// Whether a step is one of those with a profile.
     pub fn wants_profile(&self, step: u64) -> bool {
-        match self.history.profiles.len() < self.wave_profiles {
+        match step < self.wave_steps {
             true => step.is_multiple_of(self.wave_stride),
             false => step.is_multiple_of(self.profile_stride),
         }
@@ -248,12 +248,13 @@ impl Recorder {
             // Powers of two, so that later profiles stay multiples of their stride.
             let steps = (WAVE_STEPS * profile.elements.len()).next_power_of_two();
             let stride = (steps / MOST_WAVE_PROFILES).max(1);
-            self.wave_profiles = steps / stride;
+            self.wave_steps = steps as u64;
             self.wave_stride = stride as u64;
         }
         profiles.push(profile);
-        if profiles.len() > self.wave_profiles + MOST_PROFILES {
-            let mut later = profiles.split_off(self.wave_profiles);
+        let of_waves = (self.wave_steps / self.wave_stride) as usize;
+        if profiles.len() > of_waves + MOST_PROFILES {
+            let mut later = profiles.split_off(of_waves);
             thin(&mut later);
             profiles.extend(later);
             self.profile_stride *= 2;

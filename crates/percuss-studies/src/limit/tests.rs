@@ -286,15 +286,18 @@ fn velocities_without_an_answer_are_named() {
 }
 
 #[test]
-fn a_curve_that_jumps_at_the_limit_is_said_to_start_elsewhere() {
+fn a_curve_that_jumps_at_the_limit_is_said_to_have_another_form() {
     // The made model loses no velocity at all.
     let model = made(|velocity| over(velocity, 300.0));
     let found = one(&model, &scenario(BLUNT), &search(0.0, 1600.0, 12));
     assert!(
         (found.curve[0].residual_velocity_m_s - found.curve[0].impact_velocity_m_s).abs() < 1e-12
     );
-    let said = found.warnings.iter().any(|w| w.contains("starts at"));
+    let words = "do not follow the form of Lambert and Jonas";
+    let said = found.warnings.iter().any(|w| w.contains(words));
     assert!(said, "{found:?}");
+    let (fit, limit) = (found.fit.unwrap(), found.ballistic_limit_m_s.unwrap());
+    assert_eq!((fit.ballistic_limit_m_s, fit.at(limit)), (limit, 0.0));
 }
 
 #[test]
