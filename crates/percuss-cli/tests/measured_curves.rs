@@ -106,7 +106,8 @@ fn models_with_histories_are_compared_with_the_curves() {
     let read = "load cell: read `t (msec)` as `time_us`, converted; read `Force_lbf` as `contact_force_kn`, converted; column `remark` not read";
     assert!(flat(&text).contains(read), "{text}");
     let figure = fs::read_to_string(path.join("out/measured-curve-1.svg")).unwrap();
-    assert!(figure.contains("chain, RMS difference") && figure.contains("fdm, RMS difference"));
+    assert!(figure.contains(">chain<") && figure.contains(">finite differences<"));
+    assert_eq!(figure.matches(">RMS difference ").count(), 2);
     let results = json(&fs::read_to_string(path.join("out/compare.json")).unwrap());
     let models = results["results"].as_array().unwrap();
     let of = |model: &str| models.iter().find(|entry| entry["model"] == model).unwrap();

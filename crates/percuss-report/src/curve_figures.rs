@@ -57,9 +57,8 @@ fn curve_chart(
             continue;
         };
         any = true;
-        let name = format!("{}{}", label(record.model), differs_by(found));
-        let line = Series::new(name, in_unit(&found.computed));
-        chart = chart.series(line.symbol(symbol));
+        let line = Series::new(label(record.model), in_unit(&found.computed));
+        chart = chart.series(line.value(differs_by(found)).symbol(symbol));
     }
     any.then_some(chart)
 }
@@ -67,7 +66,7 @@ fn curve_chart(
 /// Root mean square difference in words.
 fn differs_by(found: &CurveComparison) -> String {
     match found.relative_rms_difference {
-        Some(part) => format!(", RMS difference {} %", significant(100.0 * part, 3)),
+        Some(part) => format!("RMS difference {} %", significant(100.0 * part, 3)),
         None => String::new(),
     }
 }

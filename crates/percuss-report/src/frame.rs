@@ -15,6 +15,7 @@ use kuva::{
 
 use serde::Serialize;
 
+pub(crate) use crate::text::plain;
 use crate::{Axis, Figure, figure_width, legend::Legend};
 
 /// Height of figures whose content does not ask for another one [px].
@@ -255,18 +256,6 @@ pub(crate) fn tick_label(value: f64) -> String {
         }
     };
     label.replace('-', "\u{2212}")
-}
-
-/// Text as it stands, on one line and not longer than `most` characters: a dollar sign would begin a formula.
-pub(crate) fn plain(text: &str, most: usize) -> String {
-    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    let line = if line.chars().count() > most {
-        let kept: String = line.chars().take(most.saturating_sub(1)).collect();
-        format!("{}…", kept.trim_end())
-    } else {
-        line
-    };
-    line.replace('$', "\\$")
 }
 
 #[cfg(test)]

@@ -7,8 +7,8 @@ use kuva::render::{
 };
 
 use crate::{
-    frame::plain,
     primitives::{bar, filled, text},
+    text::plain,
 };
 
 /// Most characters of a name.

@@ -84,6 +84,7 @@ mod stress_grid;
 #[cfg(feature = "parquet")]
 pub mod sweep;
 pub mod table;
+mod text;
 mod time_figures;
 mod uncertainty;
 mod v50_figure;
