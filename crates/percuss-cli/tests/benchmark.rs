@@ -109,7 +109,7 @@ fn json_holds_statistics_and_verdicts_of_the_extrapolated_reference() {
         verdicts.iter().find(own).unwrap()
     };
     assert!((of(600.0)["reference_depth_mm"].as_f64().unwrap() - 2.0).abs() < 1e-9);
-    assert!((of(600.0)["reference_uncertainty_mm"].as_f64().unwrap() - 0.05).abs() < 1e-9);
+    assert!((of(600.0)["reference_uncertainty_mm"].as_f64().unwrap() - 0.0625).abs() < 1e-9);
     assert!((of(300.0)["reference_depth_mm"].as_f64().unwrap() - 1.15).abs() < 1e-12);
     assert!((of(300.0)["reference_uncertainty_mm"].as_f64().unwrap() - 0.1).abs() < 1e-12);
     let refused = json["refused"].as_array().unwrap();

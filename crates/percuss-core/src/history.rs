@@ -177,7 +177,7 @@ const MOST_SAMPLES: usize = 1600;
 const MOST_PROFILES: usize = 400;
 /// Steps per element in which the first waves are followed: they run through all elements and back.
 const WAVE_STEPS: usize = 2;
-/// Most profiles of the first waves, which move on by an element in a step or two.
+/// Most profiles of the first waves, which move on by an element in a step or two, that stay in a longer run.
 const MOST_WAVE_PROFILES: usize = 128;
 
 /// Collects histories of a run of unknown length: when it is full, it drops every other entry and doubles its stride. Profiles of the
@@ -187,9 +187,10 @@ pub struct Recorder {
     history: History,
     sample_stride: u64,
     profile_stride: u64,
-    /// Steps in which the first waves are followed, and the stride of their profiles.
+    /// Steps in which the first waves are followed.
     wave_steps: u64,
-    wave_stride: u64,
+    /// Profiles of the first waves, once they are over.
+    wave_profiles: Option<usize>,
 }
 
 impl Recorder {
@@ -207,7 +208,7 @@ impl Recorder {
             sample_stride: 1,
             profile_stride: 1,
             wave_steps: 0,
-            wave_stride: 1,
+            wave_profiles: None,
         }
     }
 
@@ -218,10 +219,7 @@ impl Recorder {
 
     /// Whether a step is one of those with a profile.
     pub fn wants_profile(&self, step: u64) -> bool {
-        match step < self.wave_steps {
-            true => step.is_multiple_of(self.wave_stride),
-            false => step.is_multiple_of(self.profile_stride),
-        }
+        step.is_multiple_of(self.profile_stride)
     }
 
     /// Adds a sample, with the states at all gauges.
@@ -244,15 +242,22 @@ impl Recorder {
     /// Adds a profile.
     pub fn profile(&mut self, profile: Profile) {
         let profiles = &mut self.history.profiles;
-        if profiles.is_empty() && !profile.elements.is_empty() {
-            // Powers of two, so that later profiles stay multiples of their stride.
-            let steps = (WAVE_STEPS * profile.elements.len()).next_power_of_two();
-            let stride = (steps / MOST_WAVE_PROFILES).max(1);
-            self.wave_steps = steps as u64;
-            self.wave_stride = stride as u64;
+        if profiles.is_empty() {
+            // A power of two, so that later profiles stay multiples of their stride.
+            self.wave_steps = match profile.elements.len() {
+                0 => 0,
+                count => (WAVE_STEPS * count).next_power_of_two() as u64,
+            };
+        }
+        let steps = profiles.len() as u64 * self.profile_stride;
+        if self.wave_profiles.is_none() && steps >= self.wave_steps {
+            while profiles.len() > MOST_WAVE_PROFILES {
+                thin(profiles);
+            }
+            self.wave_profiles = Some(profiles.len());
         }
         profiles.push(profile);
-        let of_waves = (self.wave_steps / self.wave_stride) as usize;
+        let of_waves = self.wave_profiles.unwrap_or(0);
         if profiles.len() > of_waves + MOST_PROFILES {
             let mut later = profiles.split_off(of_waves);
             thin(&mut later);

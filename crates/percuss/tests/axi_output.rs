@@ -74,6 +74,11 @@ fn resumed(scenario: &Scenario, bytes: &[u8]) -> Result<RunResult, Error> {
     run(scenario, &mut control)
 }
 
+/// Everything that a run says, in words that are the same only for the same bits: displacements of cells are no numbers, which equal nothing.
+fn words(result: &RunResult) -> String {
+    format!("{result:?}")
+}
+
 #[test]
 fn an_interrupted_run_goes_on_with_the_same_bits_on_any_number_of_threads() {
     let scenario = scenario("600 m/s");
@@ -85,9 +90,10 @@ fn an_interrupted_run_goes_on_with_the_same_bits_on_any_number_of_threads() {
             .num_threads(threads)
             .build()
             .unwrap();
-        assert_eq!(pool.install(|| resumed(&scenario, &bytes)).unwrap(), whole);
+        let found = pool.install(|| resumed(&scenario, &bytes)).unwrap();
+        assert_eq!(words(&found), words(&whole));
         let repeated = pool.install(|| run(&scenario, &mut Control::recording()));
-        assert_eq!(repeated.unwrap(), whole);
+        assert_eq!(words(&repeated.unwrap()), words(&whole));
     }
 }
 
@@ -100,7 +106,7 @@ fn a_checkpoint_that_is_left_changes_nothing() {
         checkpoints: Some(&mut keeper),
         ..Control::recording()
     };
-    assert_eq!(run(&scenario, &mut control).unwrap(), whole);
+    assert_eq!(words(&run(&scenario, &mut control).unwrap()), words(&whole));
     let header = Header::read(&keeper.kept, "axi", &scenario).unwrap();
     assert_eq!(header.step, 20);
     assert!(header.time > 0.0 && header.time < 6e-6);
@@ -115,7 +121,8 @@ fn a_run_may_go_on_for_longer_than_it_was_meant_to() {
     longer.options.axi.end_time = Some(percuss::units::Time::new(7e-6));
     let result = resumed(&longer, &bytes).unwrap();
     assert!(result.end_time.unwrap() >= 7e-6);
-    assert_eq!(result, run(&longer, &mut Control::recording()).unwrap());
+    let whole = run(&longer, &mut Control::recording()).unwrap();
+    assert_eq!(words(&result), words(&whole));
 }
 
 #[test]

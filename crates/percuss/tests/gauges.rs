@@ -128,8 +128,8 @@ fn a_fixed_gauge_stays_where_it_is() {
         let (head, tail) = BARS.split_once("    [[gauges]]").unwrap();
         let (_, material) = tail.split_once("    [materials.bar]").unwrap();
         let text = format!(
-            "{head}gauges = [{{ position = '-49.95 mm', fixed = true }}, {{ position = '50 mm', fixed = true }}, {{ position = '50 mm', name = 'moves' }}]\n\
-             [materials.bar]{material}\n{options}"
+            "gauges = [{{ position = '-49.95 mm', fixed = true }}, {{ position = '50 mm', fixed = true }}, {{ position = '50 mm', name = 'moves' }}]\n\
+             {head}\n[materials.bar]{material}\n{options}"
         );
         gauges(model, &text)
     };

@@ -40,7 +40,7 @@ fn a_hotter_target_has_a_deeper_crater() {
         let at = |temperature: &str| depth(model, &format!("{STEEL}{temperature}"), options);
         let room = at("");
         // The record's own room temperature, said aloud, changes nothing.
-        assert_eq!(at(", temperature = '294 K'"), room, "{model} {options}");
+        assert_eq!(at(", temperature = '298 K'"), room, "{model} {options}");
         let (warm, hot) = (
             at(", temperature = '700 K'"),
             at(", temperature = '1100 K'"),
@@ -152,7 +152,7 @@ fn what_cannot_take_a_hot_target_refuses_it() {
     for model in ["fdm", "tate"] {
         let reason = refusal(model, STEEL);
         assert!(
-            reason.contains("a target at the temperature of its material's record, 294 K, and this one has 700 K"),
+            reason.contains("a target at the temperature of its material's record, 298 K, and this one has 700 K"),
             "{model}: {reason}"
         );
     }

@@ -212,10 +212,14 @@ impl Material {
 
     /// Stress at which slow flow starts at a temperature [K] [Pa]; `None` for a law that never flows.
     pub fn yield_stress_at(&self, temperature: f64) -> Option<f64> {
-        match temperature == self.room_temperature.si() {
-            true => self.strength.law().initial_yield_stress(self),
-            false => self.flow_stress_at(0.0, temperature),
+        let yield_stress = self.strength.law().initial_yield_stress(self)?;
+        let room = self.room_temperature.si();
+        if temperature == room {
+            return Some(yield_stress);
         }
+        // Laws that start their hardening at a small strain are above their yield stress at none: the ratio is not.
+        let [hot, cold] = [temperature, room].map(|at| self.flow_stress_at(0.0, at));
+        Some(yield_stress * (hot? / cold?))
     }
 
     /// Shear modulus [Pa].
