@@ -142,7 +142,7 @@ fn a_fixed_gauge_stays_where_it_is() {
             panic!("{found:?}");
         };
         // The tail of the rod leaves the place 0.05 mm ahead of it after 5 us.
-        assert_eq!(at(left, 3e-6).velocity, 10.0, "{model}");
+        assert!((at(left, 3e-6).velocity - 10.0).abs() < 1e-8, "{model}");
         assert!(at(left, 7e-6).velocity.is_nan(), "{model}");
         assert!(fixed.states.iter().all(|state| state.position == 50e-3));
         // The material that the wave moves passes the place; far from its front both have its stress.

@@ -100,11 +100,12 @@ impl std::iter::Sum for Estimate {
 /// than a jet of no strength would reach [m].
 pub fn expected_depth(scenario: &Scenario, layers: &[Plate]) -> f64 {
     let rod = &scenario.projectile;
-    let target = &layers[layers.len() - 1].material;
+    let plate = &layers[layers.len() - 1];
+    let target = &plate.material;
     let density = rod.material.density.si();
     let jet = 1.2 * rod.length * (density / target.density.si()).sqrt();
     let kinetic = 0.5 * density * scenario.impact_velocity.powi(2) * rod.length;
-    match target.flow_stress(0.2) {
+    match target.flow_stress_at(0.2, plate.start_temperature()) {
         Some(stress) => jet.min(kinetic / (3.0 * stress)),
         None => jet,
     }

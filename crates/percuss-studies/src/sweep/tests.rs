@@ -292,7 +292,7 @@ layers = [{ material = 'copper', thickness = '20 mm' }]
         assert_eq!(grid.axes[0].words().unwrap(), ["304", "copper", "4340"]);
     }
     // A key that takes no name still refuses a quoted number without a unit.
-    let speeds = "base = 'scenario.toml'\n[[parameter]]\nkey = 'projectile.impact_velocity'\nvalues = ['230 m/s', '4340']";
+    let speeds = "base = 'scenario.toml'\ndesign = 'grid'\n[[parameter]]\nkey = 'projectile.impact_velocity'\nvalues = ['230 m/s', '4340']";
     let error = load("no-unit", speeds).unwrap_err().to_string();
     assert!(error.contains("`4340` has no unit"), "{error}");
     assert!(error.contains("parameter.0.values.1"), "{error}");
