@@ -120,6 +120,7 @@ class ElementColumns:
     part: Array
     initial_position_mm: Array
     position_mm: Array
+    displacement_mm: Array
     length_mm: Array
     stress_mpa: Array
     strain: Array
