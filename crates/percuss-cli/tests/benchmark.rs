@@ -147,7 +147,7 @@ fn the_report_is_written_whole() {
     let parts = [
         "<h2>Findings</h2>",
         "4: 1.8, 8: 1.9, 16: 1.95",
-        "2 ± 0.0625",
+        "2 ± 0.06",
         "refused: fewer than three meshes",
         "2 cases left out: their reference fails its check",
         "percuss benchmark --reference own.csv --out report",

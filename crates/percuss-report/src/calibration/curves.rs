@@ -32,7 +32,7 @@ pub(super) fn chart(calibration: &Calibration, index: usize, curve: &CurvePredic
         format!(
             "{}{place}, model {}",
             capitalized(&words),
-            label(&calibration.model)
+            label(calibration.model)
         ),
         Axis::new("Time (µs)").tight(),
         Axis::new(with_unit(&words, curve.unit)),

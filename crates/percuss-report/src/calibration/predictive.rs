@@ -14,7 +14,7 @@ pub(super) fn chart(calibration: &Calibration) -> LineChart {
         "predictive",
         format!(
             "Relative error of model {} after calibration",
-            label(&calibration.model)
+            label(calibration.model)
         ),
         Axis::new("Impact velocity (m/s)"),
         Axis::new("Predicted / measured - 1 (%)"),
