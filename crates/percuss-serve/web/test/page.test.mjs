@@ -62,8 +62,13 @@ test("curves and text follow a slider while it moves", async () => {
   const text = join(scratch, "scenario.toml");
   writeFileSync(text, await page.locator("#text").inputValue());
   const printed = JSON.parse(execFileSync(program, ["run", text, "--fast", "--json"], { encoding: "utf8" }));
-  const depth = Number((await number(page, "depth of penetration")).split(" ")[0]);
   const exact = printed.results[0].depth_of_penetration_mm;
+  // The answer to the last place of the slider may still be on its way.
+  const read = async () => Number((await number(page, "depth of penetration")).split(" ")[0]);
+  for (let i = 0; i < 50 && Math.abs((await read()) / exact - 1) >= 5e-3; i++) {
+    await page.waitForTimeout(100);
+  }
+  const depth = await read();
   assert.ok(Math.abs(depth / exact - 1) < 5e-3, `${depth} and ${exact}`);
   await page.context().close();
 });
