@@ -10,11 +10,12 @@ use crate::{
     Axis, Figure, Mark,
     chart_methods::chart_methods,
     figure_width,
-    frame::{Frame, Head, plain},
+    frame::{Frame, Head},
     legend::{Entry, Legend},
     mark,
     primitives::{bar, border, line, text},
     single,
+    text::plain,
 };
 
 /// Most characters of a name beside its row.

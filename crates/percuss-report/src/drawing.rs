@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::{Figure, figure_width, frame::plain, page::html::escape};
+use crate::{Figure, figure_width, page::html::escape, text::plain};
 
 /// A figure in the making.
 pub(crate) struct Drawing {

@@ -15,8 +15,7 @@ use kuva::{
 
 use serde::Serialize;
 
-pub(crate) use crate::text::plain;
-use crate::{Axis, Figure, figure_width, legend::Legend};
+use crate::{Axis, Figure, figure_width, legend::Legend, text::plain};
 
 /// Height of figures whose content does not ask for another one [px].
 pub(crate) fn height() -> f64 {

@@ -162,23 +162,30 @@ fn input_curve(chart: LineChart, models: &[&ModelLimit], symbol: usize) -> LineC
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use percuss::{
-        case,
-        limit::{Observer, Search, limits},
+        Scenario, case,
+        limit::{Limits, Observer, Search, limits},
         model,
     };
 
     use super::{Chart, limit_chart, limit_figure};
 
-    #[test]
-    fn models_whose_points_coincide_share_an_entry() {
+    /// Limits of a steel cylinder against a plate by some models.
+    pub(crate) fn limits_by(names: &[&str]) -> (Scenario, Limits) {
         let text = "projectile = { material = '4340-johnson-cook', length = '40 mm', diameter = '20 mm', impact_velocity = '300 m/s' }\n\
                     target = { material = 'weldox-460-e-borvik', thickness = '8 mm', back_face = 'free' }\n";
         let scenario = case::load_str("case.toml", text).unwrap();
-        let models = [model::model("plugging").unwrap()];
+        let models = names.iter().map(|name| model::model(name).unwrap());
+        let models: Vec<_> = models.collect();
         let (search, mut observer) = (Search::default(), Observer::default());
-        let mut found = limits(&models, &scenario, &search, &mut observer).unwrap();
+        let found = limits(&models, &scenario, &search, &mut observer).unwrap();
+        (scenario, found)
+    }
+
+    #[test]
+    fn models_whose_points_coincide_share_an_entry() {
+        let (scenario, mut found) = limits_by(&["plugging"]);
         let mut twin = found.results[0].clone();
         twin.model = "twin";
         let mut other = twin.clone();
@@ -194,15 +201,7 @@ mod tests {
 
     #[test]
     fn the_curve_of_a_model_starts_at_its_limit_on_the_axis() {
-        let text = "projectile = { material = '4340-johnson-cook', length = '40 mm', diameter = '20 mm', impact_velocity = '300 m/s' }\n\
-                    target = { material = 'weldox-460-e-borvik', thickness = '8 mm', back_face = 'free' }\n";
-        let scenario = case::load_str("case.toml", text).unwrap();
-        let models = [
-            model::model("plugging").unwrap(),
-            model::model("power_balance").unwrap(),
-        ];
-        let (search, mut observer) = (Search::default(), Observer::default());
-        let found = limits(&models, &scenario, &search, &mut observer).unwrap();
+        let (scenario, found) = limits_by(&["plugging", "power_balance"]);
         let Some(Chart::Lines(chart)) = limit_chart(&scenario, &found) else {
             panic!("{found:?}");
         };

@@ -89,26 +89,13 @@ pub fn axisymmetric_limit(limits: &Limits) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use percuss::{
-        case,
-        limit::{Observer, Search, limits},
-        model,
-    };
-
     use super::limit_headline;
+    use crate::limit_figure::tests::limits_by;
 
     #[test]
     fn limits_without_a_recommended_model_have_a_headline() {
-        let text = "projectile = { material = '4340-johnson-cook', length = '40 mm', diameter = '20 mm', impact_velocity = '300 m/s' }\n\
-                    target = { material = 'weldox-460-e-borvik', thickness = '8 mm', back_face = 'free' }\n";
-        let scenario = case::load_str("case.toml", text).unwrap();
         let headline = |names: &[&str]| {
-            let models: Vec<_> = names
-                .iter()
-                .map(|name| model::model(name).unwrap())
-                .collect();
-            let (search, mut observer) = (Search::default(), Observer::default());
-            let found = limits(&models, &scenario, &search, &mut observer).unwrap();
+            let (_, found) = limits_by(names);
             assert_eq!(found.recommended, []);
             limit_headline(&found).unwrap()
         };

@@ -23,8 +23,9 @@ pub(crate) fn lines(scenario: &Scenario, quantity: BandQuantity, history: &Histo
             let error = measured.uncertainty.map(|error| quantity.in_unit(error));
             let off = error.map_or_else(String::new, |error| format!(" ± {}", significant(error)));
             let name = format!(
-                "measured {}{off} ({})",
+                "measured {}{off} {} ({})",
                 significant(value),
+                quantity.unit(),
                 measured.sources.join(", ")
             );
             let times = [first.time * 1e6, last.time * 1e6];
@@ -67,7 +68,7 @@ mod tests {
         let [line] = found.as_slice() else {
             panic!("{found:?}");
         };
-        assert_eq!(line.name, "measured 15 ± 0.5 (a)");
+        assert_eq!(line.name, "measured 15 ± 0.5 mm (a)");
         let end = history.samples.last().unwrap().time * 1e6;
         assert_eq!(line.points, [(0.0, 15.0), (end, 15.0)]);
         assert_eq!(line.band, [(14.5, 15.5); 2]);

@@ -1,6 +1,7 @@
 //! Colours that people with any common colour vision tell apart.
 
 use kuva::plot::colormap::ColorMap;
+use percuss::model;
 
 /// Colours of lines, in the order in which series take them: those of Okabe and Ito, yellow last.
 pub const SERIES: [&str; 8] = [
@@ -53,8 +54,8 @@ pub(crate) fn symbol_dashes(index: usize) -> Option<&'static str> {
     dashes(index / SYMBOLS)
 }
 
-/// The models in the order of their symbols: those that are often in one figure differ in colour.
-const MODELS: [&str; 23] = [
+/// Models that are often in one figure, in the order of their symbols: they differ in colour. Others follow in the order of all models.
+const TOGETHER: [&str; 23] = [
     "chain",
     "fdm",
     "axi",
@@ -80,15 +81,23 @@ const MODELS: [&str; 23] = [
     "taylor",
 ];
 
-/// Symbols of the models of a figure: a model has the same one in every figure. Variants of a model, as `chain: column`, and models
-/// that are not in the list have those after them, in their order.
+/// All models in the order of their symbols.
+fn models() -> impl Iterator<Item = &'static str> {
+    let all = model::MODELS.iter().map(|model| model.name());
+    let others = all.filter(|name| !TOGETHER.contains(name));
+    TOGETHER.into_iter().chain(others)
+}
+
+/// Symbols of the models of a figure: a model has the same one in every figure. Variants of a model after the first one, as `chain: column`,
+/// and models that are not in the list of models have those after them, in their order.
 pub fn model_symbols<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<usize> {
+    let after = models().count();
     let mut taken: Vec<usize> = Vec::new();
     for name in names {
         let model = name.split(':').next().unwrap_or(name);
-        let own = MODELS.iter().position(|known| *known == model);
-        let others = taken.iter().filter(|symbol| **symbol >= MODELS.len());
-        let free = MODELS.len() + others.count();
+        let own = models().position(|known| known == model);
+        let others = taken.iter().filter(|symbol| **symbol >= after);
+        let free = after + others.count();
         taken.push(own.filter(|own| !taken.contains(own)).unwrap_or(free));
     }
     taken
@@ -147,8 +156,6 @@ pub(crate) fn body(index: u8) -> [u8; 3] {
 
 #[cfg(test)]
 mod tests {
-    use percuss::model;
-
     use super::*;
 
     #[test]
@@ -160,14 +167,14 @@ mod tests {
             .map(|symbol| (symbol_color(*symbol), symbol_dashes(*symbol)))
             .collect();
         for (i, look) in looks.iter().enumerate() {
-            assert!(symbols[i] < MODELS.len(), "{}", names[i]);
             assert!(!looks[..i].contains(look), "{}", names[i]);
         }
         // It is the same in another figure.
         assert_eq!(model_symbols(["plugging", "chain"]), [9, 0]);
+        let free = models().count();
         assert_eq!(
             model_symbols(["chain: column", "mine", "chain: diverging", "fdm"]),
-            [0, 23, 24, 1]
+            [0, free, free + 1, 1]
         );
     }
 }

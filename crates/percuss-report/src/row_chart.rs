@@ -6,9 +6,10 @@ use serde::Serialize;
 use crate::{
     Axis, Figure, Mark,
     chart_methods::chart_methods,
-    frame::{Frame, Head, plain},
+    frame::{Frame, Head},
     legend::Legend,
     mark, single,
+    text::plain,
 };
 
 /// Most characters of a name.

@@ -15,6 +15,8 @@ pub mod memory;
 pub mod monitor;
 mod particle;
 
+use std::borrow::Cow;
+
 use crate::{
     Error, Refusal, Scenario,
     outcome::RunResult,
@@ -46,6 +48,11 @@ pub enum CostClass {
 pub trait Model: Sync {
     /// Name on the command line and in results.
     fn name(&self) -> &'static str;
+
+    /// Name for readers, as figures have it: that of its authors or of its method.
+    fn label(&self) -> Cow<'static, str> {
+        Cow::Owned(self.name().replace('_', " "))
+    }
 
     /// One line that says what it is.
     fn summary(&self) -> &'static str;

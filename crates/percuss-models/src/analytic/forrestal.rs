@@ -1,5 +1,7 @@
 //! Model `forrestal`: a rigid rod in a thick metal target, resisted by the pressure of a spherical cavity that expands.
 
+use std::borrow::Cow;
+
 use super::{
     cavity_expansion::CavityExpansion,
     deep_penetration::{
@@ -96,6 +98,10 @@ fn rounded(speed: f64) -> Velocity {
 impl Model for Forrestal {
     fn name(&self) -> &'static str {
         "forrestal"
+    }
+
+    fn label(&self) -> Cow<'static, str> {
+        Cow::Borrowed("Forrestal")
     }
 
     fn summary(&self) -> &'static str {

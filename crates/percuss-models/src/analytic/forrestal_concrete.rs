@@ -1,6 +1,6 @@
 //! Model `forrestal_concrete`: rigid projectile into concrete, a conical crater and then a tunnel.
 
-use std::f64::consts::PI;
+use std::{borrow::Cow, f64::consts::PI};
 
 use super::deep_penetration::{DeepPenetration, NOT_ONE_TARGET, at_rest, detail};
 use super::rigid_motion::Stop;
@@ -86,6 +86,10 @@ impl ForrestalConcrete {
 impl Model for ForrestalConcrete {
     fn name(&self) -> &'static str {
         "forrestal_concrete"
+    }
+
+    fn label(&self) -> Cow<'static, str> {
+        Cow::Borrowed("Forrestal, concrete")
     }
 
     fn summary(&self) -> &'static str {

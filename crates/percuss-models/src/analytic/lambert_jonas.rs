@@ -1,5 +1,7 @@
 //! Model `lambert_jonas`: residual velocity from a ballistic limit by the three-parameter form.
 
+use std::borrow::Cow;
+
 use super::{
     limit::{input_limit, limit},
     plate_impact::{PlateImpact, plate_result, refuse},
@@ -19,6 +21,10 @@ pub struct LambertJonas;
 impl Model for LambertJonas {
     fn name(&self) -> &'static str {
         "lambert_jonas"
+    }
+
+    fn label(&self) -> Cow<'static, str> {
+        Cow::Borrowed("Lambert–Jonas")
     }
 
     fn summary(&self) -> &'static str {

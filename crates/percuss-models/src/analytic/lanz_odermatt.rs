@@ -1,5 +1,7 @@
 //! Model `lanz_odermatt`: the regression of Lanz and Odermatt for tungsten rods on steel.
 
+use std::borrow::Cow;
+
 use super::long_rod::{LongRod, NOT_ONE_TARGET, detail};
 use crate::{
     Error, Refusal, Scenario,
@@ -60,6 +62,10 @@ impl LanzOdermatt {
 impl Model for LanzOdermatt {
     fn name(&self) -> &'static str {
         "lanz_odermatt"
+    }
+
+    fn label(&self) -> Cow<'static, str> {
+        Cow::Borrowed("Lanz–Odermatt")
     }
 
     fn summary(&self) -> &'static str {

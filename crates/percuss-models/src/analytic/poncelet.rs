@@ -1,5 +1,7 @@
 //! Model `poncelet`: momentum balance of a rigid projectile against strength and drag.
 
+use std::borrow::Cow;
+
 use super::{
     deep_penetration::{DeepPenetration, NOT_ONE_TARGET, at_rest, detail, never_yields},
     nose_load::NoseLoad,
@@ -47,6 +49,10 @@ impl Poncelet {
 impl Model for Poncelet {
     fn name(&self) -> &'static str {
         "poncelet"
+    }
+
+    fn label(&self) -> Cow<'static, str> {
+        Cow::Borrowed("Poncelet")
     }
 
     fn summary(&self) -> &'static str {

@@ -1,5 +1,7 @@
 //! Model `recht_ipson`: residual velocity from a ballistic limit by energy and momentum.
 
+use std::borrow::Cow;
+
 use super::{
     limit::{input_limit, limit},
     plate_impact::{PlateImpact, plate_result, refuse, taken_as_rigid},
@@ -19,6 +21,10 @@ pub struct RechtIpson;
 impl Model for RechtIpson {
     fn name(&self) -> &'static str {
         "recht_ipson"
+    }
+
+    fn label(&self) -> Cow<'static, str> {
+        Cow::Borrowed("Recht–Ipson")
     }
 
     fn summary(&self) -> &'static str {

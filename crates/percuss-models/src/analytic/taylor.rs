@@ -1,5 +1,7 @@
 //! Model `taylor`: a rigid, perfectly plastic rod on a rigid wall, shortened by a plastic front that moves.
 
+use std::borrow::Cow;
+
 use super::{
     deep_penetration::{detail, termination},
     dynamic_yield::{DynamicYield, Shortening, dynamic_yield},
@@ -109,6 +111,10 @@ pub struct Taylor;
 impl Model for Taylor {
     fn name(&self) -> &'static str {
         "taylor"
+    }
+
+    fn label(&self) -> Cow<'static, str> {
+        Cow::Borrowed("Taylor")
     }
 
     fn summary(&self) -> &'static str {

@@ -1,5 +1,7 @@
 //! Model `wilkins_guinan`: a rod on a rigid wall whose plastic front stands still a fixed part of its length from the wall.
 
+use std::borrow::Cow;
+
 use super::{
     deep_penetration::detail,
     dynamic_yield::{DynamicYield, Shortening, dynamic_yield},
@@ -61,6 +63,10 @@ impl WilkinsGuinan {
 impl Model for WilkinsGuinan {
     fn name(&self) -> &'static str {
         "wilkins_guinan"
+    }
+
+    fn label(&self) -> Cow<'static, str> {
+        Cow::Borrowed("Wilkins–Guinan")
     }
 
     fn summary(&self) -> &'static str {

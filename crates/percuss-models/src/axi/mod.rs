@@ -27,6 +27,8 @@ mod tests;
 mod transfer;
 mod warnings;
 
+use std::borrow::Cow;
+
 pub use crate::options::{AxiOptions, ContactKind, Edge, Eos};
 pub use crate::solver::Particle;
 pub use warnings::layers_that_cannot_fail;
@@ -70,6 +72,10 @@ pub fn particles(scenario: &Scenario) -> f64 {
 impl Model for Axi {
     fn name(&self) -> &'static str {
         "axi"
+    }
+
+    fn label(&self) -> Cow<'static, str> {
+        Cow::Borrowed("axisymmetric")
     }
 
     fn summary(&self) -> &'static str {

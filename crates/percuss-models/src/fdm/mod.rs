@@ -7,6 +7,8 @@ mod rod;
 mod viscosity;
 mod warnings;
 
+use std::borrow::Cow;
+
 pub use crate::options::{FdmOptions, Geometry};
 pub use planar::StateEquation;
 
@@ -37,6 +39,10 @@ pub struct Fdm;
 impl Model for Fdm {
     fn name(&self) -> &'static str {
         "fdm"
+    }
+
+    fn label(&self) -> Cow<'static, str> {
+        Cow::Borrowed("finite differences")
     }
 
     fn summary(&self) -> &'static str {

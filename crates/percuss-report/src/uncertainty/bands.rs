@@ -56,13 +56,13 @@ pub(super) fn bands(
     .series(
         Series::new("median", percentile(50.0))
             .color(color)
-            .band(between(5.0, 95.0))
-            .band_name("5th to 95th percentile"),
+            .band(between(25.0, 75.0))
+            .band_name("25th to 75th percentile"),
     )
     .series(
         Series::new("", percentile(50.0))
             .color(color)
-            .band(between(25.0, 75.0)),
+            .band(between(5.0, 95.0)),
     )
     .series(
         Series::new("5th and 95th percentile", percentile(5.0))

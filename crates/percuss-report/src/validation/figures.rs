@@ -179,7 +179,7 @@ fn parity(
     };
     let chart = LineChart::new(
         format!("parity-{stem}-{}", model.replace('_', "-")),
-        format!("{title}, {} versus measurement", label(model)),
+        format!("{title}, model {} versus measurement", label(model)),
         axis(format!("Measured {unit}")),
         axis(format!("Predicted {unit}")),
     )
@@ -208,7 +208,7 @@ fn residuals(
     };
     let chart = LineChart::new(
         format!("residuals-{stem}-{}", model.replace('_', "-")),
-        format!("{title}, relative error of {}", label(model)),
+        format!("{title}, relative error of model {}", label(model)),
         Axis::new(format!("{speed} (m/s)")),
         Axis::new("Predicted / measured - 1 (%)"),
     )

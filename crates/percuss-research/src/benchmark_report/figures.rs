@@ -112,7 +112,7 @@ fn map(verdicts: &[ErrorRecord], candidate: &str) -> Option<Figure> {
     let map = HeatMap::new(
         [
             &format!("error-{}", stem(candidate)),
-            &format!("Median error of {}", label(candidate)),
+            &format!("Median error of model {}", label(candidate)),
         ],
         [
             axis("Impact velocity (m/s)", VELOCITIES),

@@ -133,18 +133,11 @@ pub(crate) async fn uncertainty_example(
     State(workers): State<Workers>,
     request: Request,
 ) -> Response {
-    let asked: CaseRequest = match request::read(request).await {
-        Ok(asked) => asked,
-        Err(problem) => return problem.into_response(),
-    };
-    let text = workers.run(move |_| {
+    let example = |asked: &CaseRequest, _: &RequestLimits, _: &Stop| {
         let read = asked.read(asked.edited()?)?;
         Ok(uncertain_example::with_example(&read.text, &read.scenario))
-    });
-    match text.await {
-        Ok(text) => http::json(StatusCode::OK, &json!({ "case": text })),
-        Err(problem) => problem.into_response(),
-    }
+    };
+    changed(workers, request, example).await
 }
 
 /// `POST /api/calibration-example`: the text of a case with an example of measured values in it.
@@ -152,16 +145,26 @@ pub(crate) async fn calibration_example(
     State(workers): State<Workers>,
     request: Request,
 ) -> Response {
+    let example = |asked: &CaseRequest, bounds: &RequestLimits, stop: &Stop| {
+        let ReadCase { text, scenario } = asked.read(asked.edited()?)?;
+        let chosen = asked.model(&scenario, bounds)?;
+        calibration_example::with_example(&text, &scenario, &chosen, stop)
+    };
+    changed(workers, request, example).await
+}
+
+/// Answers with the changed text of a case.
+async fn changed(
+    workers: Workers,
+    request: Request,
+    change: fn(&CaseRequest, &RequestLimits, &Stop) -> Result<String, Problem>,
+) -> Response {
     let asked: CaseRequest = match request::read(request).await {
         Ok(asked) => asked,
         Err(problem) => return problem.into_response(),
     };
     let bounds = *workers.bounds();
-    let text = workers.run(move |stop| {
-        let ReadCase { text, scenario } = asked.read(asked.edited()?)?;
-        let chosen = asked.model(&scenario, &bounds)?;
-        calibration_example::with_example(&text, &scenario, &chosen, stop)
-    });
+    let text = workers.run(move |stop| change(&asked, &bounds, stop));
     match text.await {
         Ok(text) => http::json(StatusCode::OK, &json!({ "case": text })),
         Err(problem) => problem.into_response(),

@@ -5,7 +5,7 @@ mod stages;
 #[cfg(test)]
 mod tests;
 
-use std::f64::consts::PI;
+use std::{borrow::Cow, f64::consts::PI};
 
 use self::stages::Impact;
 use super::{
@@ -60,6 +60,10 @@ impl Impact {
 impl Model for AwerbuchBodner {
     fn name(&self) -> &'static str {
         "awerbuch_bodner"
+    }
+
+    fn label(&self) -> Cow<'static, str> {
+        Cow::Borrowed("Awerbuch–Bodner")
     }
 
     fn summary(&self) -> &'static str {

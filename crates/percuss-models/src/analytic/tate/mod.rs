@@ -3,6 +3,8 @@
 mod equations;
 mod exact;
 
+use std::borrow::Cow;
+
 pub use equations::{Phase, Rods, Stop};
 
 use super::{
@@ -134,6 +136,10 @@ fn band(
 impl Model for Tate {
     fn name(&self) -> &'static str {
         "tate"
+    }
+
+    fn label(&self) -> Cow<'static, str> {
+        Cow::Borrowed("Alekseevskii–Tate")
     }
 
     fn summary(&self) -> &'static str {

@@ -5,6 +5,8 @@ mod motion;
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
+
 use flow::Flow;
 use motion::Motion;
 
@@ -122,6 +124,10 @@ impl WalkerAnderson {
 impl Model for WalkerAnderson {
     fn name(&self) -> &'static str {
         "walker_anderson"
+    }
+
+    fn label(&self) -> Cow<'static, str> {
+        Cow::Borrowed("Walker–Anderson")
     }
 
     fn summary(&self) -> &'static str {
