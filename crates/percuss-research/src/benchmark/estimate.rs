@@ -173,8 +173,8 @@ pub fn depth_of(meshes: &[OnMesh]) -> Result<Estimate, Refusal> {
     let [.., _, _, finest] = *meshes else {
         return Err(Refusal::TooFewMeshes);
     };
-    let resolution =
-        BandQuantity::DepthOfPenetration.in_unit(depth_resolution(DIAMETER, finest.cells));
+    let diameter = BandQuantity::DepthOfPenetration.in_unit(DIAMETER);
+    let resolution = depth_resolution(finest.value, diameter, finest.cells);
     let limit = axisymmetric::limit(meshes, 0.0, resolution).ok_or(Refusal::TooFewMeshes)?;
     let uncertainty = limit.uncertainty / limit.value;
     if uncertainty.is_nan() || uncertainty > LARGEST_UNCERTAINTY {

@@ -78,6 +78,14 @@ fn equal_values_keep_the_least_uncertainty() {
 }
 
 #[test]
+fn depths_are_resolved_to_a_part_that_falls_with_the_cell_size() {
+    // Deep craters on 6 and 12 cells; a dent to a part of a cell.
+    assert!((depth_resolution(10.0, 5.0, 6.0) - 0.5).abs() < 1e-12);
+    assert!((depth_resolution(10.0, 5.0, 12.0) - 0.25).abs() < 1e-12);
+    assert!((depth_resolution(0.1, 5.0, 8.0) - 0.08 * 2.5 / 8.0).abs() < 1e-12);
+}
+
+#[test]
 fn two_meshes_have_a_wide_uncertainty_and_one_has_none() {
     let found = limit(&meshes(&[1.0, 1.1]), 0.0, 0.0).unwrap();
     assert_eq!((found.value, found.order), (1.1, None));
@@ -118,8 +126,9 @@ fn the_answer_is_the_limit_of_runs_of_the_model() {
         .iter()
         .filter_map(|mesh| mesh.depth_of_penetration_mm)
         .collect();
-    // Eight hundredths of a cell, of six in the radius.
-    let own = limit(&meshes(&depths), 0.0, 0.08 * 2.5 / 6.0).unwrap();
+    // Eight hundredths of a cell, of six in the radius, and a twentieth of the depth.
+    let least = (0.08 * 2.5 / 6.0_f64).max(0.05 * depths[2]);
+    let own = limit(&meshes(&depths), 0.0, least).unwrap();
     assert_eq!((found.value, found.order), (Some(own.value), own.order));
     assert!((found.uncertainty.unwrap() - own.uncertainty).abs() < 1e-12);
 }
