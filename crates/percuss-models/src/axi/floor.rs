@@ -11,12 +11,16 @@ const FLAT: &[f64] = &[0.0, 0.1, 0.25];
 /// Cells of depth from which on the filling counts, and from which on it alone does.
 const SHALLOW: f64 = 2.0;
 const DEEP: f64 = 4.0;
+/// Cells to both the filling and the projectile's tip from which on a point marks the floor no longer: stray material has carried it off.
+const LOST: f64 = 0.5;
 
 /// Points on the struck face and the depth of the floor.
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Floor {
     /// Radius and depth of each point [m].
     points: Vec<[f64; 2]>,
+    /// Depth of the projectile's tip when it last pushed [m].
+    tip: f64,
 }
 
 impl Floor {
@@ -31,6 +35,7 @@ impl Floor {
                 .iter()
                 .map(|radius| [0.5 * diameter * radius, 0.0])
                 .collect(),
+            tip: 0.0,
         }
     }
 
@@ -50,13 +55,69 @@ impl Floor {
         }
     }
 
-    /// Depth of the floor on the axis [m]; `None` when there is no material on the axis.
-    pub(super) fn depth(&self, targets: &[Body], mesh: &Mesh) -> Option<f64> {
+    /// Depth of the floor on the axis, for that of the projectile's tip [m] while it pushes; `None` when there is no material on the axis.
+    pub(super) fn depth(
+        &mut self,
+        targets: &[Body],
+        mesh: &Mesh,
+        tip: impl FnOnce() -> Option<f64>,
+    ) -> Option<f64> {
         let filled = crater::floor(targets, mesh)?;
+        if filled < DEEP * mesh.cell
+            && let Some(tip) = tip()
+        {
+            self.tip = tip;
+        }
+        Some(self.correct(filled, mesh.cell))
+    }
+
+    /// Depth of the floor for that of the filling and the cell size [m]. Points that are lost are left out from then on.
+    fn correct(&mut self, filled: f64, cell: f64) -> f64 {
+        let cells = filled / cell;
+        if cells < DEEP {
+            let near = |depth: f64, surface: f64| (depth - surface).abs() <= LOST * cell;
+            self.points
+                .retain(|&[_, depth]| near(depth, filled) || near(depth, self.tip));
+        }
+        if self.points.is_empty() {
+            return filled;
+        }
         let moved =
             self.points.iter().map(|point| point[1]).sum::<f64>() / self.points.len() as f64;
-        let cells = filled / mesh.cell;
         let share = ((cells - SHALLOW) / (DEEP - SHALLOW)).clamp(0.0, 1.0);
-        Some(moved + share * (filled - moved))
+        moved + share * (filled - moved)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn floor(depths: &[f64], tip: f64) -> Floor {
+        Floor {
+            points: depths.iter().map(|depth| [0.0, *depth]).collect(),
+            tip,
+        }
+    }
+
+    #[test]
+    fn shallow_floors_are_those_of_the_points_and_deep_ones_of_the_filling() {
+        assert!((floor(&[1.0, 1.2, 1.4], 1.2).correct(1.0, 1.0) - 1.2).abs() < 1e-12);
+        assert!((floor(&[3.2, 3.2], 3.2).correct(3.0, 1.0) - 3.1).abs() < 1e-12);
+        assert_eq!(floor(&[1.0, 3.0], 5.0).correct(5.0, 1.0), 5.0);
+    }
+
+    #[test]
+    fn points_that_stray_material_carries_off_are_left_out_for_good() {
+        let mut followed = floor(&[0.4, 1.9, 2.0], 2.1);
+        assert!((followed.correct(2.0, 1.0) - 1.95).abs() < 1e-12);
+        followed.tip = 1.2;
+        assert!((followed.correct(0.5, 1.0) - 0.5).abs() < 1e-12);
+        assert!(followed.points.is_empty());
+    }
+
+    #[test]
+    fn points_at_the_tip_stay() {
+        assert!((floor(&[0.4, 0.6], 0.5).correct(2.0, 1.0) - 0.5).abs() < 1e-12);
     }
 }

@@ -186,7 +186,11 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
         if grid.bodies.len() > 1 {
             let elapsed = grid.time - self.before;
             self.floor.follow(&grid.bodies[1], &grid.mesh, elapsed);
-            match self.floor.depth(&grid.bodies[1..], &grid.mesh) {
+            let tip = || {
+                let (_, tip) = crater::ends(&grid.bodies[0], &grid.mesh)?;
+                self.touches.then_some(tip)
+            };
+            match self.floor.depth(&grid.bodies[1..], &grid.mesh, tip) {
                 Some(depth) => self.depth = depth,
                 None => self.window.perforated = true,
             }
