@@ -173,6 +173,10 @@ pub struct GaugeHistory {
 
 /// Samples kept lie between this number and half of it.
 const MOST_SAMPLES: usize = 1600;
+/// Most samples at an interval of the case.
+const MOST_AT_INTERVAL: usize = 20_000;
+/// Part of an interval by which a step may end before a sample is due.
+const ROUNDING: f64 = 1e-6;
 /// Profiles kept after the first waves lie between this number and half of it.
 const MOST_PROFILES: usize = 400;
 /// Steps per element in which the first waves are followed: they run through all elements and back.
@@ -186,6 +190,9 @@ const MOST_WAVE_PROFILES: usize = 128;
 pub struct Recorder {
     history: History,
     sample_stride: u64,
+    /// Time between samples [s], where the case gives one, and when the next is due.
+    interval: Option<f64>,
+    due: f64,
     profile_stride: u64,
     /// Steps in which the first waves are followed.
     wave_steps: u64,
@@ -194,8 +201,8 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// An empty history with gauges.
-    pub fn new(gauges: &[GaugePlace]) -> Self {
+    /// An empty history with gauges, and with samples at an interval [s] if there is one.
+    pub fn new(gauges: &[GaugePlace], interval: Option<f64>) -> Self {
         let gauge = |place: &GaugePlace| GaugeHistory {
             name: place.name.clone(),
             ..GaugeHistory::default()
@@ -206,15 +213,25 @@ impl Recorder {
                 ..History::default()
             },
             sample_stride: 1,
+            interval,
+            due: 0.0,
             profile_stride: 1,
             wave_steps: 0,
             wave_profiles: None,
         }
     }
 
-    /// Whether a step is one of those with a sample.
-    pub fn wants_sample(&self, step: u64) -> bool {
-        step.is_multiple_of(self.sample_stride)
+    /// Whether a step that ends at a time [s] is one of those with a sample.
+    pub fn wants_sample(&self, step: u64, time: f64) -> bool {
+        match self.interval {
+            Some(_) => time >= self.due,
+            None => step.is_multiple_of(self.sample_stride),
+        }
+    }
+
+    /// Time between samples [s] where there would be too many at the interval of the case.
+    pub fn longer_interval(&self, given: Option<f64>) -> Option<f64> {
+        self.interval.filter(|_| self.interval != given)
     }
 
     /// Whether a step is one of those with a profile.
@@ -229,13 +246,22 @@ impl Recorder {
             history.states.push(state);
         }
         self.history.samples.push(sample);
-        if self.history.samples.len() > MOST_SAMPLES {
+        let most = match self.interval {
+            Some(_) => MOST_AT_INTERVAL,
+            None => MOST_SAMPLES,
+        };
+        if self.history.samples.len() > most {
             thin(&mut self.history.samples);
             for history in &mut self.history.gauges {
                 thin(&mut history.times);
                 thin(&mut history.states);
             }
             self.sample_stride *= 2;
+            self.interval = self.interval.map(|interval| 2.0 * interval);
+        }
+        if let Some(interval) = self.interval {
+            // Steps end a little before or after a multiple of the interval by rounding alone.
+            self.due = ((sample.time / interval + ROUNDING).floor() + 1.0 - ROUNDING) * interval;
         }
     }
 
@@ -302,7 +328,7 @@ mod tests {
 
     #[test]
     fn profiles_of_the_first_waves_stay_and_later_ones_are_evenly_spread() {
-        let mut recorder = Recorder::new(&[]);
+        let mut recorder = Recorder::new(&[], None);
         for step in 0..20_000 {
             if recorder.wants_profile(step) {
                 recorder.profile(Profile {
@@ -326,7 +352,7 @@ mod tests {
 
     #[test]
     fn a_long_run_keeps_few_entries_evenly_spread() {
-        let mut recorder = Recorder::new(&[]);
+        let mut recorder = Recorder::new(&[], None);
         for step in 0..100_000 {
             if recorder.wants_profile(step) {
                 recorder.profile(Profile {
@@ -343,5 +369,42 @@ mod tests {
             .map(|pair| pair[1].time - pair[0].time)
             .collect();
         assert!(gaps.iter().all(|gap| *gap == gaps[0]));
+    }
+
+    fn samples(interval: f64, steps: u64, time_step: f64) -> (Recorder, Vec<f64>) {
+        let mut recorder = Recorder::new(&[], Some(interval));
+        for step in 0..steps {
+            let time = step as f64 * time_step;
+            if recorder.wants_sample(step, time) {
+                let sample = Sample {
+                    time,
+                    step,
+                    ..Sample::default()
+                };
+                recorder.sample(sample, Vec::new());
+            }
+        }
+        let times = recorder.history.samples.iter().map(|sample| sample.time);
+        let times = times.collect();
+        (recorder, times)
+    }
+
+    #[test]
+    fn samples_at_an_interval_end_the_step_in_which_they_are_due() {
+        let (recorder, times) = samples(1.0, 100, 0.3);
+        assert!((times[1] - 1.2).abs() < 1e-12 && (times[2] - 2.1).abs() < 1e-12);
+        assert_eq!(times.len(), 30);
+        assert_eq!(recorder.longer_interval(Some(1.0)), None);
+        // Multiples of the interval that are a little short of it count, and none counts twice.
+        let (_, times) = samples(1e-7, 1001, 1e-8);
+        assert_eq!(times.len(), 101);
+    }
+
+    #[test]
+    fn an_interval_with_too_many_samples_grows() {
+        let (recorder, times) = samples(1.0, 50_000, 1.0);
+        assert_eq!(recorder.longer_interval(Some(1.0)), Some(4.0));
+        assert!(times.len() <= MOST_AT_INTERVAL);
+        assert!(times.windows(2).all(|pair| pair[1] - pair[0] == 4.0));
     }
 }

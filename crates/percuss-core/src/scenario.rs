@@ -38,6 +38,8 @@ pub struct Scenario {
     pub options: ModelOptions,
     /// Points of the material at which a numerical run keeps a time history.
     pub gauges: Vec<GaugePlace>,
+    /// Time from one sample of its histories to the next [s]; `None` for samples that are spread over its steps.
+    pub history_interval: Option<f64>,
     /// Tables of models that are not part of percuss.
     pub extensions: Extensions,
     /// What was measured, for comparison; no model sees it.

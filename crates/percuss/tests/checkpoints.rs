@@ -36,6 +36,7 @@ const COLUMN: &str = r#"
     projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "800 m/s" }
     target = { material = "aluminium-2024-t351", thickness = "50 mm" }
     chain = { target_resistance = "column", erosion_strain = 1.0 }
+    history = { interval = "0.3 us" }
 "#;
 const COLUMN_WITHOUT_EROSION: &str = r#"
     projectile = { material = "copper", length = "12.74 mm", diameter = "4.8 mm", impact_velocity = "230 m/s" }

@@ -194,6 +194,40 @@ fn a_fixed_gauge_of_material_points_is_passed_by_the_projectile() {
 }
 
 #[test]
+fn an_interval_of_histories_is_kept_to_the_step_by_every_solver() {
+    let text = format!("{BARS}\n[history]\ninterval = \"2 us\"");
+    for (model, options) in [
+        ("chain", ""),
+        ("fdm", ""),
+        (
+            "axi",
+            "\n[axi]\ncells_per_radius = 4\ntarget_radius = \"5 mm\"\nend_time = \"20 us\"",
+        ),
+    ] {
+        let of = gauges(model, &format!("{text}{options}"));
+        let times = &of[0].times;
+        assert!(times.len() > 8, "{model}: {times:?}");
+        // All but the last, which is that of the end.
+        for (i, time) in times[..times.len() - 1].iter().enumerate() {
+            let due = 2e-6 * i as f64;
+            assert!(
+                *time > due - 1e-11 && *time < due + 1e-6,
+                "{model}: {times:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn an_interval_of_histories_out_of_range_is_refused() {
+    let text = format!("{BARS}\n[history]\ninterval = \"0 us\"");
+    let error = case::load_str("bars", &text).unwrap_err().to_string();
+    for part in ["history.interval", "0 s", "1 ns"] {
+        assert!(error.contains(part), "{error}");
+    }
+}
+
+#[test]
 fn a_gauge_outside_the_bodies_is_refused() {
     for (gauge, key, words) in [
         (

@@ -1,15 +1,38 @@
-//! Gauges: points of the material, or places, at which a run keeps a time history.
+//! Gauges: points of the material, or places, at which a run keeps a time history, and the times of histories.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::{
     check::{Check, limits},
-    units::Length,
+    units::{Length, Time},
 };
 
 /// Most gauges of a case.
 const MOST: usize = 64;
+
+/// Times at which a numerical run keeps its histories, those at gauges included.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HistoryOptions {
+    /// Time from one sample to the next, to the end of a time step [s]; when not given, 800 to 1600 samples of equally many steps.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interval: Option<Time>,
+}
+
+impl HistoryOptions {
+    /// Checks the values of the table.
+    pub fn check(self, check: &mut Check<'_>) {
+        if let Some(interval) = self.interval {
+            check.quantity("interval", interval, limits::TIME);
+        }
+    }
+
+    /// Whether no key is given.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
 
 /// A point of the material on the axis, which moves with it, or a place there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

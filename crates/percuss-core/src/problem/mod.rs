@@ -10,7 +10,7 @@ mod target;
 
 pub use experiment::{Experiment, SourceKeys, Uncertainty};
 pub use extensions::Extensions;
-pub use gauge::Gauge;
+pub use gauge::{Gauge, HistoryOptions};
 pub use measured_table::{CurveUncertainty, MeasuredTable};
 pub use nose::{ConeGeometry, Nose, NoseGeometry, OgiveGeometry};
 pub use projectile::Projectile;

@@ -18,6 +18,7 @@ use crate::{
     history::Recorder,
     ledger::{EnergyLedger, MomentumLedger},
     outcome::{Numerics, RunResult, Termination},
+    units::Time,
 };
 
 /// Largest part of the energy that changes of the time step may take: less than 1 % of the depth.
@@ -136,7 +137,9 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
 
     fn attempt(&mut self, control: &mut Control<'_>) -> Result<RunResult, AttemptError> {
         if !self.resumed {
-            self.recorder = control.record.then(|| Recorder::new(&self.scenario.gauges));
+            let scenario = self.scenario;
+            let recorder = || Recorder::new(&scenario.gauges, scenario.history_interval);
+            self.recorder = control.record.then(recorder);
             self.record();
         }
         self.show(control)?;
@@ -286,6 +289,13 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
             momentum_residual: monitor.balance_error.momentum,
         });
         let recorder = self.recorder.take();
+        let given = self.scenario.history_interval;
+        if let Some(longer) = recorder.as_ref().and_then(|it| it.longer_interval(given)) {
+            result.warnings.push(format!(
+                "at `history.interval` the run has too many samples: its histories keep one every {}",
+                Time::new(longer)
+            ));
+        }
         result.history = recorder.map(|recorder| {
             let gauges = solver.gauges(&self.gauges);
             recorder.finish(solver.sample(monitor), gauges, solver.profile())
@@ -298,8 +308,8 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
         let Some(recorder) = &mut self.recorder else {
             return;
         };
-        let step = self.solver.clock().step;
-        if recorder.wants_sample(step) {
+        let Clock { step, time, .. } = self.solver.clock();
+        if recorder.wants_sample(step, time) {
             let gauges = self.solver.gauges(&self.gauges);
             recorder.sample(self.solver.sample(&self.monitor), gauges);
         }

@@ -10,7 +10,7 @@ use crate::{
     inputs::UncertainInputs,
     material::MaterialTable,
     options::ModelOptions,
-    problem::{Experiment, Extensions, Gauge, MeasuredTable, Projectile, Target},
+    problem::{Experiment, Extensions, Gauge, HistoryOptions, MeasuredTable, Projectile, Target},
 };
 
 macro_rules! case_with_model_options {
@@ -41,6 +41,9 @@ macro_rules! case_with_model_options {
             /// Points of the material at which a numerical run keeps a time history.
             #[serde(default, skip_serializing_if = "Vec::is_empty")]
             pub gauges: Vec<Gauge>,
+            /// Times at which a numerical run keeps its histories.
+            #[serde(default, skip_serializing_if = "HistoryOptions::is_empty")]
+            pub history: HistoryOptions,
             /// Tables of models that are not part of percuss, by name; only those models read them.
             #[serde(default, skip_serializing_if = "Extensions::is_empty")]
             pub extensions: Extensions,
@@ -71,6 +74,7 @@ macro_rules! case_with_model_options {
                     target,
                     $($name: Default::default(),)*
                     gauges: Vec::new(),
+                    history: HistoryOptions::default(),
                     extensions: Extensions::default(),
                     experiments: Vec::new(),
                     measured_curves: Vec::new(),

@@ -182,6 +182,7 @@ impl Case {
         self.target.check(&mut check.within("target"));
         self.check_model_options(check);
         Gauge::check_all(&self.gauges, check);
+        self.history.check(&mut check.within("history"));
         MeasuredTable::check_all(&self.measured_curves, &self.gauges, check);
         for (i, experiment) in self.experiments.iter().enumerate() {
             let mut check = check.within(&format!("experiments.{i}"));

@@ -11,7 +11,7 @@ use crate::{
     scenario::{
         Given, Measurement, Plate, PlateEdge, Rod, Scenario, TargetBody, modelled_thickness,
     },
-    units::{Length, Mass, Quantity, Temperature, Velocity},
+    units::{Length, Mass, Quantity, Temperature, Time, Velocity},
 };
 
 /// Materials of the user that an error lists at most.
@@ -43,6 +43,7 @@ pub(super) fn resolve(
         resistance_reason: None,
         options,
         gauges: Vec::new(),
+        history_interval: case.history.interval.map(Time::si),
         extensions: case.extensions,
         experiments: case.experiments.iter().filter_map(measurement).collect(),
         // They come from files, which the caller reads.

@@ -14,13 +14,14 @@ pub fn list(materials: &[&MaterialEntry], json: bool) -> Result<(), Failure> {
     if json {
         return output::print_json(&records(materials));
     }
-    let rows: Vec<[String; 5]> = materials.iter().map(|entry| row(entry)).collect();
+    let rows: Vec<[String; 6]> = materials.iter().map(|entry| row(entry)).collect();
     let table = Table::of(&rows)
         .words("id", |row| row[0].clone())
         .words("family", |row| row[1].clone())
         .words("law", |row| row[2].clone())
         .numbers("density [kg/m3]", "", |row| row[3].clone())
-        .words("trust", |row| row[4].clone())
+        .numbers("HB", "", |row| row[4].clone())
+        .words("trust", |row| row[5].clone())
         .table();
     let text = plain(&table, 1);
     // Broken columns are hard to read.
@@ -43,9 +44,13 @@ fn narrow(materials: &[&MaterialEntry]) -> String {
     let width = terminal::width();
     let mut text = String::new();
     for entry in materials {
-        let [id, family, law, density, trust] = row(entry);
+        let [id, family, law, density, hardness, trust] = row(entry);
         let name = &entry.material.name;
-        let rest = format!("{name}; {law}, {density} kg/m3; trust {trust}");
+        let hardness = match hardness.as_str() {
+            "" => hardness,
+            _ => format!(", {hardness} HB"),
+        };
+        let rest = format!("{name}; {law}, {density} kg/m3{hardness}; trust {trust}");
         text += &format!(
             "{}  {family}\n  {}\n",
             terminal::bold(id),
@@ -55,14 +60,16 @@ fn narrow(materials: &[&MaterialEntry]) -> String {
     text
 }
 
-fn row(entry: &MaterialEntry) -> [String; 5] {
+fn row(entry: &MaterialEntry) -> [String; 6] {
     let material = &entry.material;
+    let hardness = material.brinell_hardness;
     let star = if material.recommended { " ★" } else { "" };
     [
         entry.id.clone(),
         material.family.clone().unwrap_or_default() + star,
         material.strength.key().to_owned(),
         format!("{}", material.density.si()),
+        hardness.map_or_else(String::new, |hardness| hardness.to_string()),
         material.trust.letter().to_owned(),
     ]
 }
