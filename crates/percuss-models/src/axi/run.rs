@@ -187,8 +187,8 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
             let elapsed = grid.time - self.before;
             self.floor.follow(&grid.bodies[1], &grid.mesh, elapsed);
             let tip = || {
-                let (_, tip) = crater::ends(&grid.bodies[0], &grid.mesh)?;
-                self.touches.then_some(tip)
+                let pushes = self.touches.then_some(&grid.bodies[0])?;
+                crater::ends(pushes, &grid.mesh).map(|(_, tip)| tip)
             };
             match self.floor.depth(&grid.bodies[1..], &grid.mesh, tip) {
                 Some(depth) => self.depth = depth,
