@@ -68,7 +68,7 @@ test("what was measured stands in the chart against time, with its error and its
     page.locator("#text").fill(text.replace('"16.81 mm"', '"16.81 mm"\nuncertainty = "0.1 mm"')),
   ]);
   const legend = page.locator('figure[data-chart="length-time"] .u-legend');
-  await legend.getByText("measured 16.81 ± 0.1 (wilkins1973)").waitFor();
+  await legend.getByText("measured 16.81 ± 0.1 mm (wilkins1973)").waitFor();
   const chart = (await answer.json()).charts.find((one) => one.name === "length-time");
   const measured = chart.series.at(-1);
   assert.deepEqual(measured.band.map((ends) => ends.map((end) => Math.round(100 * end) / 100)), [[16.71, 16.91], [16.71, 16.91]]);
