@@ -85,6 +85,18 @@ fn materials_of_a_case_and_of_a_file_are_shown() {
 }
 
 #[test]
+fn the_list_has_the_brinell_hardness() {
+    let folder = TempDir::new().unwrap();
+    let text = ok(folder.path(), &["materials", "2139-t8"]);
+    let words = |line: usize| -> Vec<&str> {
+        let line = text.lines().nth(line).unwrap();
+        line.split_whitespace().collect()
+    };
+    assert_eq!(words(0)[5..], ["HB", "trust"], "{text}");
+    assert_eq!(words(1)[4..], ["2810", "153", "B"], "{text}");
+}
+
+#[test]
 fn materials_are_searched_by_words() {
     let folder = TempDir::new().unwrap();
     let ids = |words: &[&str]| -> Vec<String> {

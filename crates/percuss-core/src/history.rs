@@ -184,15 +184,38 @@ const WAVE_STEPS: usize = 2;
 /// Most profiles of the first waves, which move on by an element in a step or two, that stay in a longer run.
 const MOST_WAVE_PROFILES: usize = 128;
 
+/// Distance from one sample to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+enum Spacing {
+    /// In time steps.
+    Steps(u64),
+    /// In time [s].
+    Time(f64),
+}
+
+impl Spacing {
+    /// Most samples that are kept.
+    fn most(self) -> usize {
+        match self {
+            Self::Steps(_) => MOST_SAMPLES,
+            Self::Time(_) => MOST_AT_INTERVAL,
+        }
+    }
+
+    fn doubled(self) -> Self {
+        match self {
+            Self::Steps(stride) => Self::Steps(2 * stride),
+            Self::Time(interval) => Self::Time(2.0 * interval),
+        }
+    }
+}
+
 /// Collects histories of a run of unknown length: when it is full, it drops every other entry and doubles its stride. Profiles of the
 /// first waves stay.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Recorder {
     history: History,
-    sample_stride: u64,
-    /// Time between samples [s], where the case gives one, and when the next is due.
-    interval: Option<f64>,
-    due: f64,
+    sample_spacing: Spacing,
     profile_stride: u64,
     /// Steps in which the first waves are followed.
     wave_steps: u64,
@@ -212,9 +235,7 @@ impl Recorder {
                 gauges: gauges.iter().map(gauge).collect(),
                 ..History::default()
             },
-            sample_stride: 1,
-            interval,
-            due: 0.0,
+            sample_spacing: interval.map_or(Spacing::Steps(1), Spacing::Time),
             profile_stride: 1,
             wave_steps: 0,
             wave_profiles: None,
@@ -223,15 +244,22 @@ impl Recorder {
 
     /// Whether a step that ends at a time [s] is one of those with a sample.
     pub fn wants_sample(&self, step: u64, time: f64) -> bool {
-        match self.interval {
-            Some(_) => time >= self.due,
-            None => step.is_multiple_of(self.sample_stride),
+        match self.sample_spacing {
+            Spacing::Steps(stride) => step.is_multiple_of(stride),
+            Spacing::Time(interval) => self.history.samples.last().is_none_or(|last| {
+                // Steps end a little before or after a multiple of the interval by rounding alone.
+                let intervals = |time: f64| (time / interval + ROUNDING).floor();
+                intervals(time) > intervals(last.time)
+            }),
         }
     }
 
-    /// Time between samples [s] where there would be too many at the interval of the case.
+    /// Time between samples [s] where there were too many at the interval of the case.
     pub fn longer_interval(&self, given: Option<f64>) -> Option<f64> {
-        self.interval.filter(|_| self.interval != given)
+        match self.sample_spacing {
+            Spacing::Time(interval) if given != Some(interval) => Some(interval),
+            _ => None,
+        }
     }
 
     /// Whether a step is one of those with a profile.
@@ -246,22 +274,13 @@ impl Recorder {
             history.states.push(state);
         }
         self.history.samples.push(sample);
-        let most = match self.interval {
-            Some(_) => MOST_AT_INTERVAL,
-            None => MOST_SAMPLES,
-        };
-        if self.history.samples.len() > most {
+        if self.history.samples.len() > self.sample_spacing.most() {
             thin(&mut self.history.samples);
             for history in &mut self.history.gauges {
                 thin(&mut history.times);
                 thin(&mut history.states);
             }
-            self.sample_stride *= 2;
-            self.interval = self.interval.map(|interval| 2.0 * interval);
-        }
-        if let Some(interval) = self.interval {
-            // Steps end a little before or after a multiple of the interval by rounding alone.
-            self.due = ((sample.time / interval + ROUNDING).floor() + 1.0 - ROUNDING) * interval;
+            self.sample_spacing = self.sample_spacing.doubled();
         }
     }
 

@@ -134,6 +134,22 @@ fn a_thick_plate_has_the_crater_of_a_semi_infinite_target() {
 }
 
 #[test]
+fn a_soft_rod_on_a_hard_target_has_a_depth_that_meshes_agree_on() {
+    // 0.251, 0.241, 0.237 and 0.252 mm on 4, 6, 8 and 12 cells. A point that has left the floor once made it 0.136 mm on 6.
+    let [coarse, fine] = [4, 6].map(|cells| {
+        let result = run(&format!(
+            r#"
+            projectile = {{ material = "2024-t4", length = "38 mm", diameter = "5 mm", impact_velocity = "1010 m/s" }}
+            target = {{ material = "s-7-tool-steel-johnson-cook", thickness = "semi-infinite" }}
+            axi = {{ cells_per_radius = {cells} }}
+            "#
+        ));
+        result.depth_of_penetration.unwrap()
+    });
+    assert_near("depth", fine, coarse, 0.1);
+}
+
+#[test]
 fn brittle_targets_are_named_that_cannot_crack() {
     let result = axi(r#"
         projectile = { material = "4340-johnson-cook", length = "4 mm", diameter = "4 mm", impact_velocity = "50 m/s" }

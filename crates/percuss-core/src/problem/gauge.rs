@@ -15,7 +15,7 @@ const MOST: usize = 64;
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HistoryOptions {
-    /// Time from one sample to the next, to the end of a time step [s]; when not given, 800 to 1600 samples of equally many steps.
+    /// Time from one sample to the next [s]: the first time step that ends at each multiple or after it; when not given, up to 1600 samples, equally many steps apart.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interval: Option<Time>,
 }

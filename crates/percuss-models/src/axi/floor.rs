@@ -11,7 +11,8 @@ const FLAT: &[f64] = &[0.0, 0.1, 0.25];
 /// Cells of depth from which on the filling counts, and from which on it alone does.
 const SHALLOW: f64 = 2.0;
 const DEEP: f64 = 4.0;
-/// Cells to both the filling and the projectile's tip from which on a point marks the floor no longer: stray material has carried it off.
+/// Cells to both the filling and the projectile's tip from which on a point has left the floor: nodes outside the material have a little of its
+/// mass and any velocity, and now and then carry a point away.
 const LOST: f64 = 0.5;
 
 /// Points on the struck face and the depth of the floor.
@@ -71,7 +72,7 @@ impl Floor {
         Some(self.correct(filled, mesh.cell))
     }
 
-    /// Depth of the floor for that of the filling and the cell size [m]. Points that are lost are left out from then on.
+    /// Depth of the floor for that of the filling and the cell size [m]. Points that have left it are dropped.
     fn correct(&mut self, filled: f64, cell: f64) -> f64 {
         let cells = filled / cell;
         if cells < DEEP {
@@ -108,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn points_that_stray_material_carries_off_are_left_out_for_good() {
+    fn points_that_have_left_the_floor_are_left_out_for_good() {
         let mut followed = floor(&[0.4, 1.9, 2.0], 2.1);
         assert!((followed.correct(2.0, 1.0) - 1.95).abs() < 1e-12);
         followed.tip = 1.2;
