@@ -50,7 +50,7 @@ pub(super) fn bands(
         Axis::new(with_unit(what.label, what.unit.symbol)),
     )
     .caption(format!(
-        "{}; bands: 25th-75th and 5th-95th percentile; the velocity itself is exact",
+        "{}; the velocity itself is exact",
         caption(scenario, None)
     ))
     .series(
@@ -58,11 +58,6 @@ pub(super) fn bands(
             .color(color)
             .band(between(25.0, 75.0))
             .band_name("25th to 75th percentile"),
-    )
-    .series(
-        Series::new("", percentile(50.0))
-            .color(color)
-            .band(between(5.0, 95.0)),
     )
     .series(
         Series::new("5th and 95th percentile", percentile(5.0))
