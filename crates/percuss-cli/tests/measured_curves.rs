@@ -107,7 +107,7 @@ fn models_with_histories_are_compared_with_the_curves() {
     assert!(flat(&text).contains(read), "{text}");
     let figure = fs::read_to_string(path.join("out/measured-curve-1.svg")).unwrap();
     assert!(figure.contains(">chain<") && figure.contains(">finite differences<"));
-    assert_eq!(figure.matches(">RMS difference ").count(), 2);
+    assert_eq!(figure.matches(" %<").count(), 2);
     let results = json(&fs::read_to_string(path.join("out/compare.json")).unwrap());
     let models = results["results"].as_array().unwrap();
     let of = |model: &str| models.iter().find(|entry| entry["model"] == model).unwrap();

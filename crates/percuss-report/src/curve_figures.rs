@@ -42,7 +42,10 @@ fn curve_chart(
         Axis::new("Time (µs)").tight(),
         Axis::new(with_unit(&words, curve.unit.symbol)),
     )
-    .caption(caption(scenario, Some(scenario.impact_velocity)));
+    .caption(format!(
+        "{}; %: relative RMS difference",
+        caption(scenario, Some(scenario.impact_velocity))
+    ));
     let mut chart = chart.series(
         Series::new(format!("measured ({})", curve.name), in_unit(&curve.points))
             .style(Style::Dashed)
@@ -63,10 +66,10 @@ fn curve_chart(
     any.then_some(chart)
 }
 
-/// Root mean square difference in words.
+/// Root mean square difference over that of the measured curve.
 fn differs_by(found: &CurveComparison) -> String {
     match found.relative_rms_difference {
-        Some(part) => format!("RMS difference {} %", significant(100.0 * part, 3)),
+        Some(part) => format!("{} %", significant(100.0 * part, 3)),
         None => String::new(),
     }
 }

@@ -3,9 +3,10 @@
 use percuss::{
     history::{ElementState, History, Sample},
     outcome::{PLANE_IMPACT, RunResult},
+    units::significant,
 };
 
-use crate::{AreaChart, Axis, LineChart, Mark, Series, Style, caption::significant};
+use crate::{AreaChart, Axis, LineChart, Mark, Series, Style};
 
 /// Colours of the terms of the energy balance, in its order: dark for the projectile, light for the target.
 const ENERGY_COLORS: [&str; 15] = [
@@ -35,7 +36,7 @@ pub(crate) fn depth(history: &History, result: &RunResult, caption: &str) -> Opt
         .series(series("crater floor", history, |s| s.depth * 1e3))
         .series(series("projectile tip", history, |s| s.tip_position * 1e3).style(Style::Dashed))
         .mark(Mark::horizontal(
-            format!("depth of penetration {} mm", significant(depth * 1e3)),
+            format!("depth of penetration {} mm", significant(depth * 1e3, 3)),
             depth * 1e3,
         ));
     Some(with_time_to_rest(chart, result))
@@ -59,7 +60,7 @@ pub(crate) fn length(history: &History, result: &RunResult, caption: &str) -> Op
     )
     .series(series("projectile", history, |s| s.projectile_length * 1e3))
     .mark(Mark::horizontal(
-        format!("final, unloaded {} mm", significant(unloaded)),
+        format!("final, unloaded {} mm", significant(unloaded, 3)),
         unloaded,
     ));
     Some(with_time_to_rest(chart, result))
@@ -97,7 +98,7 @@ pub(crate) fn force(history: &History, result: &RunResult, caption: &str) -> Opt
     }
     let plane = result.details.iter().find(|d| d.name == PLANE_IMPACT);
     if let Some(plane) = plane {
-        let words = format!("plane impact {} kN", significant(plane.value));
+        let words = format!("plane impact {} kN", significant(plane.value, 3));
         chart = chart.mark(Mark::horizontal(words, plane.value));
     }
     if behind {
@@ -180,7 +181,7 @@ pub(crate) fn energy(history: &History, caption: &str) -> Option<AreaChart> {
                 ENERGY_COLORS[line],
             ),
             _ => {
-                let most = significant(100.0 * MINOR_ENERGY);
+                let most = significant(100.0 * MINOR_ENERGY, 3);
                 (format!("other terms, each < {most} %"), MINOR_COLOR)
             }
         };
@@ -208,7 +209,7 @@ fn series(name: &str, history: &History, value: impl Fn(&Sample) -> f64) -> Seri
 fn with_time_to_rest(chart: LineChart, result: &RunResult) -> LineChart {
     match result.time_to_rest {
         Some(time) => chart.mark(Mark::vertical(
-            format!("rest at {} µs", significant(time * 1e6)),
+            format!("rest at {} µs", significant(time * 1e6, 3)),
             time * 1e6,
         )),
         None => chart,

@@ -26,6 +26,47 @@ test("pictures of the page", async () => {
   }
 });
 
+// Sizes in CSS pixels: a phone, a tablet held upright, a laptop and a desktop.
+const SIZES = [[390, 844], [768, 1024], [1360, 900], [1920, 1080]];
+
+test("the page fits four sizes of windows, light and dark, and a sheet shows them", async () => {
+  const name = "serve-sizes";
+  const folder = process.env.SCREENSHOTS ? resolve(root, process.env.SCREENSHOTS) : scratch;
+  mkdirSync(folder, { recursive: true });
+  const page = await open("/", { reducedMotion: "reduce" });
+  await page.locator("#comparison-body table").waitFor();
+  await page.locator('#refined[data-meshes="4"]').waitFor({ timeout: 60_000 });
+  const rows = [];
+  for (const colorScheme of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
+    const row = [];
+    for (const [width, height] of SIZES) {
+      await page.setViewportSize({ width, height });
+      await page.evaluate(() => scrollTo(0, 0));
+      await page.waitForTimeout(300);
+      const size = `${width} × ${height}, ${colorScheme}`;
+      const wider = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert.ok(wider <= 0, `${size}: ${wider} px wider than the window`);
+      const headline = await page.locator("#refined").boundingBox();
+      assert.ok(headline.y >= 0 && headline.y + headline.height <= 1.5 * height, `${size}: the depth is far down, at ${headline.y} px`);
+      const picture = (await page.screenshot()).toString("base64");
+      row.push(`<figure><img src="data:image/png;base64,${picture}"><figcaption>${size}</figcaption></figure>`);
+    }
+    rows.push(row.join(""));
+  }
+  // A page of the server could have no styles within.
+  const sheet = await page.context().browser().newPage();
+  await page.context().close();
+  await sheet.setContent(`<style>
+    body { margin: 8px; background: #fff; font: 16px sans-serif } div { display: flex; gap: 12px; margin-bottom: 12px }
+    figure { margin: 0 } img { height: 390px; border: 1px solid #888 } figcaption { text-align: center }
+  </style>${rows.map((row) => `<div>${row}</div>`).join("")}`);
+  const wide = await sheet.evaluate(() => document.documentElement.scrollWidth);
+  await sheet.setViewportSize({ width: wide, height: 900 });
+  await sheet.screenshot({ path: join(folder, `${name}.png`), fullPage: true });
+  await sheet.close();
+});
+
 test("a picture of the impact", async () => {
   const name = "serve-impact";
   const folder = process.env.SCREENSHOTS ? resolve(root, process.env.SCREENSHOTS) : scratch;
