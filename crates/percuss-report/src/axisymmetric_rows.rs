@@ -4,6 +4,7 @@ use percuss::{
     axisymmetric::{AxisymmetricAnswer, HIGHEST_ORDER, MODEL},
     outcome::BandQuantity,
     summary::ResultRecord,
+    units::significant,
 };
 
 use crate::result_rows::{Row, number, with_uncertainty};
@@ -14,7 +15,7 @@ pub fn headline(answer: &AxisymmetricAnswer) -> Option<[String; 2]> {
     let unit = quantity.unit();
     let shown = match answer.uncertainty {
         Some(uncertainty) => with_uncertainty(value, uncertainty, unit),
-        None => number(value, unit),
+        None => format!("{} {unit}", significant(value, 3)),
     };
     Some([format!("Axisymmetric {}", in_headline(quantity)), shown])
 }

@@ -17,11 +17,18 @@ pub(crate) fn caption(scenario: &Scenario, speed: Option<f64>) -> String {
             )
         }
         TargetBody::Layers { layers, .. } => {
-            let name = |layer: &percuss::scenario::Plate| match layer.thickness {
-                Some(thickness) => {
-                    format!("{} mm {}", significant(thickness * 1e3), layer.material_id)
+            let name = |layer: &percuss::scenario::Plate| {
+                let gap = match layer.gap {
+                    0.0 => String::new(),
+                    gap => format!("{} mm gap + ", significant(gap * 1e3)),
+                };
+                match layer.thickness {
+                    Some(thickness) => {
+                        let thickness = significant(thickness * 1e3);
+                        format!("{gap}{thickness} mm {}", layer.material_id)
+                    }
+                    None => format!("{gap}thick {}", layer.material_id),
                 }
-                None => format!("thick {}", layer.material_id),
             };
             let layers: Vec<String> = layers.iter().map(name).collect();
             format!("on {}", layers.join(" + "))

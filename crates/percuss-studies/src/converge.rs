@@ -199,7 +199,7 @@ impl ConvergenceStatus {
             | Self::Diverging { spread }
                 if spread < AGREEMENT =>
             {
-                format!("the finest meshes agree within {:.3} %", 100.0 * spread)
+                format!("the three finest meshes agree within {:.3} %", 100.0 * spread)
             }
             Self::Unconfirmed {
                 order,
@@ -207,7 +207,7 @@ impl ConvergenceStatus {
                 meshes,
                 spread,
             } => format!(
-                "convergence is not confirmed: {}; the finest meshes differ by {:.2} %",
+                "convergence is not confirmed: {}; the three finest meshes differ by up to {:.2} %",
                 doubt(order, earlier_order, meshes, from),
                 100.0 * spread
             ),

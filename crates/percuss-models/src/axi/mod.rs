@@ -53,11 +53,11 @@ const RATE: f64 = 10e6;
 /// Steps of a run per cell along the radius, at the default Courant number: at least, and per diameter of the projectile's length.
 const STEPS: (f64, f64) = (21.0, 43.0);
 
-/// Thick metal targets, where one dimension has no crater.
+/// Metal targets that are not thin, where one dimension has no crater.
 const fn resolves(projectile: ProjectileRegime) -> FirstChoice {
     FirstChoice {
         projectile,
-        targets: &[TargetKind::SemiInfinite, TargetKind::ThickPlate],
+        targets: TargetKind::DEEP,
         noses: NoseKind::ALL,
         target_material: MaterialClass::Metal,
         because: "it resolves projectile and crater, and states the error of its mesh",

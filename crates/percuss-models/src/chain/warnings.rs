@@ -44,7 +44,9 @@ pub(super) fn warnings(
         _ if scenario.options.chain.shear_band.is_some() => {}
         _ => warnings.extend(pushed_column_warning(scenario, result.depth_of_penetration)),
     }
-    warnings.extend(fixed_rear_face_warning(scenario));
+    if result.outcome != Outcome::Perforated {
+        warnings.extend(fixed_rear_face_warning(scenario));
+    }
     warn_of_plug(scenario, result, &mut warnings);
     warn_of_closure(scenario, result, &mut warnings);
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
@@ -93,6 +95,13 @@ pub(super) fn warnings_of_cavity(
         );
     }
     warnings.extend(warning_of_rear_face(scenario, depth));
+    if scenario.gauges.iter().any(|gauge| gauge.position > 0.0) {
+        warnings.push(
+            "gauges in the target read the elastic far field of the crater: for waves in a bar set `chain.target_resistance = \"column\"` \
+             and `chain.border_shear = 0.0`"
+                .to_owned(),
+        );
+    }
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
     let heated = scenario.options.chain.adiabatic_heating();
     let material = &scenario.projectile.material;
@@ -117,6 +126,9 @@ fn warning_of_rear_face(scenario: &Scenario, depth: f64) -> Option<String> {
              `target.back_face = \"free\"`"
                 .to_owned(),
         ),
+        RearFaceCondition::Fixed if thickness < FREE_OF_DISHING * scenario.projectile.diameter => {
+            fixed_rear_face_warning(scenario)
+        }
         RearFaceCondition::Fixed | RearFaceCondition::NonReflecting if depth > FREE_OF_BACK_FACE * thickness => Some(
             "the crater is more than half as deep as the plate: the support behind it is not included in the resistance"
                 .to_owned(),

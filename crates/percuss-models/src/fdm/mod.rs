@@ -15,7 +15,7 @@ pub use planar::StateEquation;
 use crate::{
     Error, Refusal, Scenario,
     options::{ChainOptions, ErosionStrain},
-    outcome::RunResult,
+    outcome::{Outcome, RunResult},
     regime::{ProjectileRegime, Regime, STRENGTH_STRAIN, struck_end_strain},
     solver::{
         Control, CostClass, Estimate, Model,
@@ -116,7 +116,9 @@ impl Model for Fdm {
             Geometry::Rod => {
                 let mut result = rod::RodRun::new(scenario, control)?.run(control)?;
                 result.warnings.extend(Range::COLUMN.diagnostic(scenario));
-                result.warnings.extend(fixed_rear_face_warning(scenario));
+                if result.outcome != Outcome::Perforated {
+                    result.warnings.extend(fixed_rear_face_warning(scenario));
+                }
                 Ok(result)
             }
             Geometry::Planar => planar::PlanarRun::new(scenario, control)?.run(control),

@@ -217,6 +217,15 @@ pub(crate) fn on_mesh(
 }
 
 impl AxisymmetricAnswer {
+    /// Why the value is not one to use, if the meshes do not settle it.
+    pub fn doubt(&self) -> Option<&'static str> {
+        match (self.value?, self.uncertainty) {
+            (_, None) => Some("the meshes differ in their outcome"),
+            (value, Some(error)) if error > value.abs() => Some("the error of the meshes is larger than the number"),
+            _ => None,
+        }
+    }
+
     /// No answer, with the reason.
     pub fn without(reference: ReferenceMeshes, reason: impl Into<String>) -> Self {
         Self {

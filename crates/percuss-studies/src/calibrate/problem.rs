@@ -1,6 +1,7 @@
 //! Calibration problem: parameters, measured values and model.
 
 use std::{
+    collections::BTreeSet,
     ops::ControlFlow,
     sync::{
         Arc,
@@ -111,6 +112,16 @@ impl Problem {
         Ok(problem)
     }
 
+    /// Ids of the materials whose constants are fitted, for a message.
+    fn fitted_materials(&self) -> String {
+        let ids = self.fitted.iter().filter_map(|parameter| {
+            let (id, _) = parameter.key().strip_prefix("materials.")?.split_once('.')?;
+            Some(format!(" `{id}`"))
+        });
+        let ids: BTreeSet<String> = ids.collect();
+        Vec::from_iter(ids).join(",")
+    }
+
     /// Makes sure that there are enough values to fit to.
     pub(super) fn check_count(&self) -> Result<(), Error> {
         let values = self.training().count();
@@ -121,7 +132,10 @@ impl Problem {
                 "there is no measured value to fit to".to_owned(),
                 match self.left_out.last() {
                     Some(left) => format!("`{}`, for example, is left out: {}", left.id, left.reason),
-                    None => "give cases with [[experiments]] or [[measured_curves]], or --data with tests of the material that is fitted".to_owned(),
+                    None => format!(
+                        "give cases with [[experiments]] or [[measured_curves]], or --data with tests of the fitted material{}",
+                        self.fitted_materials()
+                    ),
                 },
             ));
         }

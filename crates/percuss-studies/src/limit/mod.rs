@@ -325,6 +325,12 @@ impl Limits {
             .any(|limit| limit.outcome == LimitOutcome::Found)
     }
 
+    /// The axisymmetric limit, where it contradicts another one [m/s].
+    pub fn contradicted_by(&self, limit: f64) -> Option<f64> {
+        let axisymmetric = self.axisymmetric.as_ref()?.ballistic_limit_m_s?;
+        recommended::contradict(axisymmetric / limit).then_some(axisymmetric)
+    }
+
     /// Whether a model is recommended.
     pub fn is_recommended(&self, model: &str) -> bool {
         self.recommended.iter().any(|choice| choice.model == model)

@@ -10,6 +10,11 @@ use crate::{
 /// `power_balance` 14 % on steel, `axi` 12 % high).
 const CONTRADICTION: f64 = 1.3;
 
+/// Whether two limits of this ratio contradict each other.
+pub(super) fn contradict(ratio: f64) -> bool {
+    ratio.max(1.0 / ratio) > CONTRADICTION
+}
+
 /// The first choices among the models that predict limits, each classified at its own limit, and what to know of them.
 ///
 /// A first choice that predicts depths alone has not been compared with measured limits: it is named, not recommended. An axisymmetric
@@ -27,22 +32,30 @@ pub(super) fn recommended(
     };
     let value = axisymmetric.and_then(|limit| limit.ballistic_limit_m_s);
     let cannot_fail = !axi::layers_that_cannot_fail(scenario).is_empty();
-    let Some(value) = value.filter(|_| !cannot_fail && !choices.iter().any(is_judged)) else {
-        // Without failure a plate only stretches and thins: the limit is too high.
+    // Without failure a plate only stretches and thins: the limit is too high.
+    let Some(value) = value.filter(|_| !cannot_fail) else {
         return (choices, note);
     };
     let ratio = |choice: &Choice| {
         let entry = results.iter().find(|entry| entry.model == choice.model);
         Some(value / entry?.ballistic_limit_m_s?)
     };
-    let contradicts = |ratio: &f64| ratio.max(1.0 / ratio) > CONTRADICTION;
-    if let Some(ratio) = choices.iter().filter_map(ratio).find(contradicts) {
-        let note = format!(
-            "the axisymmetric limit is {} times that of this model. Failure of plates is the least certain part of `axi`: take \
-             the range of all models as the uncertainty",
+    let judged = choices.iter().any(is_judged);
+    let mut ratios = choices.iter().filter_map(ratio);
+    if let Some(ratio) = ratios.find(|ratio| contradict(*ratio)) {
+        let advice = match judged {
+            true => "the error of this one is that on published limits of its kind",
+            false => "take the range of all models as the uncertainty",
+        };
+        let contradiction = format!(
+            "the axisymmetric limit is {} times that of this model. Failure of plates is the least certain part of `axi`: {advice}",
             significant(ratio, 2)
         );
-        return (choices, Some(note));
+        let notes = note.into_iter().chain([contradiction]);
+        return (choices, Some(Vec::from_iter(notes).join("; ")));
+    }
+    if judged {
+        return (choices, note);
     }
     let because = "it solves the whole impact, its mesh error is known, and no first choice has been compared with enough published limits of this kind";
     let choice = Choice {

@@ -101,9 +101,17 @@ pub(super) fn text(
         }
         return text;
     };
+    let (standing, advice) = match (answer.doubt(), answer.reference) {
+        (None, _) => ("the number to use", String::new()),
+        (Some(doubt), ReferenceMeshes::Standard) => (
+            "not settled",
+            paragraph(&format!("{doubt}: take finer ones by `--reference fine`")),
+        ),
+        (Some(doubt), ReferenceMeshes::Fine) => ("not settled", paragraph(doubt)),
+    };
     let mut text = format!(
-        "\n{}\n{}",
-        bold(format!("{}: the number to use", headline.join(" "))),
+        "\n{}\n{advice}{}",
+        bold(format!("{}: {standing}", headline.join(" "))),
         result_table::rows(&axisymmetric_rows::rows(answer, Some(record)))
     );
     if let Some(note) = &answer.note {
