@@ -134,15 +134,18 @@ fn every_model_that_applies_writes_its_folder() {
 projectile = { material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "300 m/s" }
 target = { material = "weldox-460-e", thickness = "12 mm" }
 chain = { projectile_elements = 10, target_elements = 10 }
+axi = { cells_per_radius = 2 }
 "#;
     const ROD: &str = r#"
-projectile = { material = "4340", length = "80 mm", diameter = "5 mm", impact_velocity = "1500 m/s" }
+projectile = { material = "4340", length = "25 mm", diameter = "5 mm", impact_velocity = "1500 m/s" }
 target = { material = "aluminium-2024-t351", thickness = "semi-infinite" }
 chain = { projectile_elements = 10, target_elements = 10 }
+axi = { cells_per_radius = 2 }
 "#;
     const CORE: &str = r#"
 projectile = { material = "apm2-core", length = "35 mm", diameter = "6.17 mm", impact_velocity = "300 m/s", nose = { ogive = { crh = 3.0 } } }
 target = { material = "aluminium-2024-t351", thickness = "semi-infinite" }
+axi = { cells_per_radius = 2 }
 "#;
     const WALL: &str = r#"
 projectile = { material = "ofhc-copper", length = "23.47 mm", diameter = "7.62 mm", impact_velocity = "183 m/s" }

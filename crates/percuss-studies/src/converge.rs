@@ -199,7 +199,10 @@ impl ConvergenceStatus {
             | Self::Diverging { spread }
                 if spread < AGREEMENT =>
             {
-                format!("the three finest meshes agree within {:.3} %", 100.0 * spread)
+                format!(
+                    "the three finest meshes agree within {:.3} %",
+                    100.0 * spread
+                )
             }
             Self::Unconfirmed {
                 order,

@@ -283,3 +283,32 @@ fn a_gauge_below_the_modelled_target_is_reported() {
             .all(|state| state.stress.is_finite())
     );
 }
+
+/// Under a crater the target is an elastic half-space far from it: a wave in a bar is not seen there.
+#[test]
+fn gauges_under_a_crater_are_warned_of() {
+    let warned = |text: &str| {
+        let text = text.replace(
+            "strength.elastic = {}",
+            "strength.perfectly_plastic = { flow_stress = \"300 MPa\" }",
+        );
+        let scenario = case::load_str("bars", &text).unwrap_or_else(|error| panic!("{error}"));
+        let result = model::run(
+            model::model("chain").unwrap(),
+            &scenario,
+            &mut Control::default(),
+        );
+        let result = result.unwrap_or_else(|error| panic!("{error}"));
+        result
+            .warnings
+            .iter()
+            .any(|warning| warning.starts_with("gauges in the target"))
+    };
+    assert!(warned(BARS));
+    assert!(!warned(
+        &BARS.replace("position = \"50 mm\"", "position = \"-10 mm\"")
+    ));
+    assert!(!warned(&format!(
+        "{BARS}\n[chain]\ntarget_resistance = \"column\"\n"
+    )));
+}

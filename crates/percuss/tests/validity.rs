@@ -406,3 +406,24 @@ fn particles_with_a_stress_refuse_what_they_leave_out() {
         assert!(found.contains(said), "{target}: {found}");
     }
 }
+
+/// A fixed rear face is the default: nothing goes through it, which plates of up to three diameters are warned of.
+#[test]
+fn a_thin_plate_before_a_fixed_face_is_warned_of() {
+    let warned = |target: &str| {
+        let text = format!(
+            "projectile = {{ material = '4340', length = '30 mm', diameter = '10 mm', impact_velocity = '300 m/s' }}\n\
+             target = {{ material = '6061', {target} }}\nchain = {{ projectile_elements = 10, target_elements = 10 }}\n"
+        );
+        let scenario = case::load_str("plate", &text).unwrap();
+        let model = MODELS.iter().find(|model| model.name() == "chain").unwrap();
+        let result = model.run(&scenario, &mut Control::default()).unwrap();
+        result
+            .warnings
+            .iter()
+            .any(|warning| warning.starts_with("perforation is impossible"))
+    };
+    assert!(warned("thickness = '10 mm'"));
+    assert!(!warned("thickness = '10 mm', back_face = 'free'"));
+    assert!(!warned("thickness = '60 mm'"));
+}

@@ -15,6 +15,9 @@ const SPELLINGS: [(&str, &str); 9] = [
     ("ms⁻¹", "m/s"),
 ];
 
+/// Longest name that can be one of a quantity [bytes]: every word of a name may begin its unit.
+const LONGEST: usize = 200;
+
 /// What a column name says of a quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ColumnName {
@@ -74,6 +77,9 @@ impl ColumnName {
     /// What a name says of a quantity that has several names: `impact_velocity_m_s`, `Impact velocity, V0 (m/s)` and `V_0 [m/s]` are one.
     pub fn of_any(name: &str, quantities: &[&str], unit: ResultUnit) -> Self {
         let name = name.trim();
+        if name.len() > LONGEST {
+            return Self::Other;
+        }
         let with_unit = |(words, symbol): (&str, &str)| {
             let known = ColumnUnit::named(symbol, unit);
             let of = known.map_or_else(|| Self::UnknownUnit(normalise(symbol)), Self::InUnit);
@@ -204,6 +210,16 @@ mod tests {
             ColumnName::InUnit(unit) => Some(unit.to_si(2.0)),
             _ => None,
         }
+    }
+
+    /// Reading it word by word would take hours.
+    #[test]
+    fn a_name_of_a_million_words_is_of_another_quantity() {
+        let name = "time ".repeat(1 << 20);
+        assert_eq!(
+            ColumnName::of(&name, "time", ResultUnit::US),
+            ColumnName::Other
+        );
     }
 
     #[test]

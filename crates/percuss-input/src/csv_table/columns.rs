@@ -120,6 +120,11 @@ pub fn recognise(
             !at.is_some_and(|at| has(&found.columns, at))
         })
         .collect();
+    let absent = known.iter().filter(|column| {
+        let at = known.iter().position(|other| other.name == column.name);
+        !at.is_some_and(|at| has(&found.columns, at))
+    });
+    let absent: Vec<&KnownColumn<'_>> = absent.collect();
     for (i, name) in table.header.iter().enumerate() {
         if let Some((column, unit)) = found.columns[i] {
             let column = known[column];
@@ -140,11 +145,7 @@ pub fn recognise(
             }
             continue;
         }
-        let absent = |column: &&KnownColumn<'_>| {
-            let at = known.iter().position(|other| other.name == column.name);
-            !at.is_some_and(|at| has(&found.columns, at))
-        };
-        if let Some(meant) = meant(name, known.iter().filter(absent)) {
+        if let Some(meant) = meant(name, &absent) {
             let message = format!("no column is named `{}`", shorten(name));
             let rest = missing.iter().copied().filter(|column| *column != meant);
             let rest = match in_ticks(rest) {
@@ -261,10 +262,11 @@ fn two_columns(
 }
 
 /// The known column whose name another one is with a letter or two wrong.
-fn meant<'a>(name: &str, known: impl Iterator<Item = &'a KnownColumn<'a>>) -> Option<&'a str> {
+fn meant<'a>(name: &str, known: &[&KnownColumn<'a>]) -> Option<&'a str> {
     let words = name.split(['(', '[']).next().unwrap_or(name);
     let words = plain_name(words);
     let names: Vec<(String, &str)> = known
+        .iter()
         .flat_map(|column| [column.name, column.quantity].map(|name| (name, column.name)))
         .map(|(words, name)| (plain_name(words), name))
         .collect();

@@ -221,7 +221,9 @@ impl AxisymmetricAnswer {
     pub fn doubt(&self) -> Option<&'static str> {
         match (self.value?, self.uncertainty) {
             (_, None) => Some("the meshes differ in their outcome"),
-            (value, Some(error)) if error > value.abs() => Some("the error of the meshes is larger than the number"),
+            (value, Some(error)) if error > value.abs() => {
+                Some("the error of the meshes is larger than the number")
+            }
             _ => None,
         }
     }

@@ -165,9 +165,16 @@ fn meshes_that_disagree_on_perforation_have_no_uncertainty() {
     ]);
     assert_eq!(mixed.quantity, Some(BandQuantity::ResidualVelocity));
     assert_eq!((mixed.value, mixed.uncertainty), (Some(40.0), None));
+    assert_eq!(mixed.doubt(), Some("the meshes differ in their outcome"));
     let all = of(vec![mesh(4, Outcome::Perforated, None, 50.0), through]);
     assert!(all.uncertainty.unwrap() >= 20.0);
     assert_eq!(all.depth_of_penetration_mm, None);
+    assert_eq!(all.doubt(), None);
+    // Meshes of one outcome that are far apart.
+    let depth = |cells, depth| mesh(cells, Outcome::AtRest, Some(depth), 0.0);
+    let apart = of(vec![depth(3, 6.1), depth(4, 5.9), depth(6, 20.1)]);
+    assert!(apart.uncertainty.unwrap() > apart.value.unwrap());
+    assert!(apart.doubt().unwrap().contains("larger"));
 }
 
 #[test]

@@ -115,7 +115,10 @@ impl Problem {
     /// Ids of the materials whose constants are fitted, for a message.
     fn fitted_materials(&self) -> String {
         let ids = self.fitted.iter().filter_map(|parameter| {
-            let (id, _) = parameter.key().strip_prefix("materials.")?.split_once('.')?;
+            let (id, _) = parameter
+                .key()
+                .strip_prefix("materials.")?
+                .split_once('.')?;
             Some(format!(" `{id}`"))
         });
         let ids: BTreeSet<String> = ids.collect();
@@ -131,7 +134,9 @@ impl Problem {
             return Err(refuse(
                 "there is no measured value to fit to".to_owned(),
                 match self.left_out.last() {
-                    Some(left) => format!("`{}`, for example, is left out: {}", left.id, left.reason),
+                    Some(left) => {
+                        format!("`{}`, for example, is left out: {}", left.id, left.reason)
+                    }
                     None => format!(
                         "give cases with [[experiments]] or [[measured_curves]], or --data with tests of the fitted material{}",
                         self.fitted_materials()

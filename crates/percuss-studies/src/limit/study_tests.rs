@@ -215,6 +215,13 @@ fn the_axisymmetric_limit_is_recommended_where_no_other_one_is_judged() {
     // A first choice that contradicts it stands before it, with the range.
     let found = of(&steel);
     assert_eq!(chosen(&found), ["power_balance"]);
+    let limit = found.results[0].ballistic_limit_m_s.unwrap();
+    let axisymmetric = found.axisymmetric.as_ref().unwrap();
+    assert_eq!(
+        found.contradicted_by(limit),
+        axisymmetric.ballistic_limit_m_s
+    );
+    assert_eq!(found.contradicted_by(1.4 * limit), None);
     let note = found.note.unwrap();
     assert!(
         note.starts_with("the axisymmetric limit is 1.5 times"),
