@@ -225,7 +225,7 @@ fn files_and_figures_are_written() {
     for part in [
         ">plugging<",
         ">limit (m/s)<",
-        ">131.4<",
+        ">131<",
         "experiment",
         ">measured<",
         ">184.5<",

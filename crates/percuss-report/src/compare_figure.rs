@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// Mark of a recommended model.
-const RECOMMENDED: &str = "★";
+pub(crate) const RECOMMENDED: &str = "★";
 /// Width of the line of a model where it is recommended [px].
 const EMPHASIS: f64 = 4.0;
 

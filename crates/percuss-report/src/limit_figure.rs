@@ -4,14 +4,16 @@ use std::collections::BTreeMap;
 
 use percuss::{
     Scenario,
+    axisymmetric::MODEL,
     limit::{LimitOutcome, Limits, ModelLimit},
     model::label,
     outcome::BandQuantity,
+    units::significant,
 };
 
 use crate::{
-    Axis, Chart, Figure, LineChart, Mark, Series, Style, caption::caption, caption::significant,
-    palette, result_rows::with_uncertainty,
+    Axis, Chart, Figure, LineChart, Mark, Series, Style, caption::caption,
+    compare_figure::RECOMMENDED, palette, result_rows::with_uncertainty,
 };
 
 /// Points of a smooth curve.
@@ -40,13 +42,22 @@ pub fn limit_chart(scenario: &Scenario, limits: &Limits) -> Option<Chart> {
         Axis::new("Residual velocity (m/s)"),
     )
     .values("limit", "m/s")
-    .caption(caption(scenario, None));
+    .caption(match limits.recommended.is_empty() {
+        true => caption(scenario, None),
+        false => format!("{} ({RECOMMENDED} recommended)", caption(scenario, None)),
+    });
     let symbols = symbols(limits);
     for models in coinciding(found().map(|(_, limit)| limit)) {
-        chart = series(chart, &models, symbols[models[0].model]);
+        chart = series(
+            chart,
+            &models,
+            names(limits, &models),
+            symbols[models[0].model],
+        );
     }
     for models in coinciding(inputs()) {
-        chart = input_curve(chart, &models, symbols[models[0].model]);
+        let name = format!("{} (input)", names(limits, &models));
+        chart = input_curve(chart, &models, name, symbols[models[0].model]);
     }
     let measured: Vec<_> = limits
         .experiments
@@ -69,11 +80,12 @@ pub fn limit_chart(scenario: &Scenario, limits: &Limits) -> Option<Chart> {
     {
         let shown = with_uncertainty(value, half_width, "m/s");
         let shown = shown.trim_end_matches(" m/s");
-        chart = chart.mark(Mark::vertical("axisymmetric", value).shown(shown));
+        chart =
+            chart.mark(Mark::vertical(marked(limits, MODEL, "axisymmetric"), value).shown(shown));
     }
     if let Some((value, _)) = limits.measured() {
         let mark = Mark::vertical("measured", value);
-        chart = chart.mark(mark.shown(significant(value)));
+        chart = chart.mark(mark.shown(significant(value, 4)));
     }
     Some(chart.into())
 }
@@ -103,9 +115,20 @@ fn coinciding<'a>(limits: impl Iterator<Item = &'a ModelLimit>) -> Vec<Vec<&'a M
     groups
 }
 
-fn names(models: &[&ModelLimit]) -> String {
-    let names: Vec<_> = models.iter().map(|limit| label(limit.model)).collect();
+fn names(limits: &Limits, models: &[&ModelLimit]) -> String {
+    let names: Vec<_> = models
+        .iter()
+        .map(|limit| marked(limits, limit.model, &label(limit.model)))
+        .collect();
     names.join(" and ")
+}
+
+/// The name of a model, marked where it is recommended.
+fn marked(limits: &Limits, model: &str, name: &str) -> String {
+    match limits.is_recommended(model) {
+        true => format!("{name} {RECOMMENDED}"),
+        false => name.to_owned(),
+    }
 }
 
 /// Symbols of all models.
@@ -115,20 +138,17 @@ fn symbols(limits: &Limits) -> BTreeMap<&'static str, usize> {
 }
 
 /// Points and curve of models that coincide; the point at their limit is on the axis.
-fn series(chart: LineChart, models: &[&ModelLimit], symbol: usize) -> LineChart {
+fn series(chart: LineChart, models: &[&ModelLimit], name: String, symbol: usize) -> LineChart {
     let limit = models[0];
     let Some(at_limit) = limit.ballistic_limit_m_s else {
         return chart;
     };
     let points = limit.curve.iter();
     let points = points.map(|p| (p.impact_velocity_m_s, p.residual_velocity_m_s));
-    let points = Series::new(
-        names(models),
-        std::iter::once((at_limit, 0.0)).chain(points),
-    )
-    .value(significant(at_limit))
-    .style(Style::Markers)
-    .symbol(symbol);
+    let points = Series::new(name, std::iter::once((at_limit, 0.0)).chain(points))
+        .value(significant(at_limit, 3))
+        .style(Style::Markers)
+        .symbol(symbol);
     let (Some(fit), Some(last)) = (limit.fit, limit.curve.last()) else {
         return chart.series(points);
     };
@@ -148,7 +168,7 @@ fn is_input(limit: &ModelLimit) -> bool {
 }
 
 /// Residual velocities of models whose limit is an input and that coincide.
-fn input_curve(chart: LineChart, models: &[&ModelLimit], symbol: usize) -> LineChart {
+fn input_curve(chart: LineChart, models: &[&ModelLimit], name: String, symbol: usize) -> LineChart {
     let limit = models[0];
     let Some(input) = limit.input_limit else {
         return chart;
@@ -156,9 +176,8 @@ fn input_curve(chart: LineChart, models: &[&ModelLimit], symbol: usize) -> LineC
     let at = input.ballistic_limit_m_s;
     let points = limit.curve.iter();
     let points = points.map(|p| (p.impact_velocity_m_s, p.residual_velocity_m_s));
-    let name = format!("{} (input)", names(models));
     let curve = Series::new(name, std::iter::once((at, 0.0)).chain(points));
-    chart.series(curve.value(significant(at)).symbol(symbol))
+    chart.series(curve.value(significant(at, 4)).symbol(symbol))
 }
 
 #[cfg(test)]
