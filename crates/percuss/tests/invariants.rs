@@ -212,10 +212,11 @@ proptest! {
                     if scenario.target == TargetBody::RigidWall {
                         prop_assert_ne!(result.outcome, Outcome::Separated);
                     }
-                    // Ends that meet again after a crack leave an error of the time step in the energy of contact, which a coarse mesh
-                    // shows: it stays below the tolerance of the balance, and a small step decides.
-                    prop_assert!(given_back(&result) <= 1e-3, "{}", given_back(&result));
-                    let given_back = if text.contains("failure") && given_back(&result) > 1e-6 {
+                    // Ends that meet again, after a crack or between layers, leave an error of the time step in the energy of contact,
+                    // which bodies of one element show: it stays small, and a small step decides.
+                    prop_assert!(given_back(&result) <= 2e-3, "{}", given_back(&result));
+                    let meets_again = text.contains("failure") || text.contains("layers");
+                    let given_back = if meets_again && given_back(&result) > 1e-6 {
                         model::run(chain, &case::load_str("random", &with_a_small_step(&text)).unwrap(), &mut Control::default())
                             .map_or(given_back(&result), |finer| given_back(&finer))
                     } else {
@@ -231,8 +232,8 @@ proptest! {
 }
 
 #[test]
-fn what_contact_gives_back_after_a_crack_vanishes_with_the_step() {
-    let text = r#"
+fn what_contact_gives_back_vanishes_with_the_step() {
+    let after_a_crack = r#"
 [projectile]
 material = "tungsten-steinberg"
 length = "1 mm"
@@ -249,10 +250,26 @@ erosion_strain = 0.3
 kinematics = "small-strain"
 artificial_viscosity = { linear = 0.10478651245595405, quadratic = 1.0478651245595405 }
 "#;
-    let coarse = given_back(&run(text));
-    let fine = given_back(&run(&with_a_small_step(text)));
-    assert!((1e-4..3e-4).contains(&coarse), "{coarse}");
-    assert!(fine <= 1e-6, "{fine}");
+    // A rod of one element on two narrow columns.
+    let between_layers = r#"
+[projectile]
+material = "6061-t6-lesuer"
+length = "71.35871901154002 mm"
+diameter = "6.15668368194094 mm"
+impact_velocity = "6.221659289581601 m/s"
+[target]
+layers = [{ material = "ti-6al-4v-steinberg", thickness = "1.7874400676982491 mm", column_diameter = "3.2823450889808483 mm" }, { material = "1006-johnson-cook", thickness = "4.67550830915344 mm", column_diameter = "2 mm" }]
+back_face = "fixed"
+[chain]
+projectile_elements = 1
+target_elements = 6
+"#;
+    for (text, expected) in [(after_a_crack, 1e-4..3e-4), (between_layers, 1e-3..1.3e-3)] {
+        let coarse = given_back(&run(text));
+        let fine = given_back(&run(&with_a_small_step(text)));
+        assert!(expected.contains(&coarse), "{coarse}");
+        assert!(fine <= 1e-6, "{fine}");
+    }
 }
 
 /// Lengths times k give times times k and the same strains, for laws without a rate.

@@ -171,6 +171,11 @@ fn the_first_choice_at_its_own_limit_is_recommended() {
     let light = of(&scenario(&light), &models);
     let expected = light.results[0].expected_error.as_ref().unwrap();
     assert!(expected.errors.low < expected.errors.median, "{expected:?}");
+    // The aluminium plates of published limits have no damage in their records.
+    let damaged = BLUNT.replace("weldox-460-e", "6061-t6-lesuer");
+    let damaged = of(&scenario(&damaged), &models);
+    assert_eq!(damaged.results[0].expected_error, None);
+    assert!(damaged.results[1].expected_error.is_some());
     // The chain is a first choice for depths; its limits have not been compared with measured ones.
     let sheet = of(&sheet(""), &[&Chain]);
     assert_eq!(
