@@ -18,11 +18,9 @@ pub fn limit_headline(limits: &Limits) -> Option<String> {
             let error = entry.expected_error.as_ref();
             let error = match error {
                 Some(e) => {
-                    let against = limits
-                        .contradicted_by(value)
-                        .map_or_else(String::new, |axi| {
-                            format!("; `axi` gives {} m/s", significant(axi, 3))
-                        });
+                    let against = limits.contradiction.map_or_else(String::new, |axi| {
+                        format!("; `axi` gives {} m/s", significant(axi, 3))
+                    });
                     format!(", model error {}{against}", e.errors.describe())
                 }
                 None if limits.measured().is_some() => String::new(),

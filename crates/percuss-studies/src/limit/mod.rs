@@ -207,6 +207,9 @@ pub struct Limits {
     pub recommended: Vec<Choice>,
     /// Remarks on that choice, if there is something.
     pub note: Option<String>,
+    /// The axisymmetric limit, where it contradicts a recommended one [m/s]; not in JSON.
+    #[serde(skip)]
+    pub contradiction: Option<f64>,
     /// Range of the limits that models predict; null where none does.
     pub range: Option<LimitRange>,
     /// Limit by the axisymmetric model in the limit of fine meshes; null where it was not asked for.
@@ -290,7 +293,7 @@ fn searched(
             axisymmetric::on_meshes(scenario, &request, search, range, &mut rest)
         })
         .transpose()?;
-    let (recommended, note) =
+    let (recommended, note, contradiction) =
         recommended::recommended(models, scenario, &results, axisymmetric.as_ref());
     Ok(Limits {
         case: scenario.name.clone(),
@@ -299,6 +302,7 @@ fn searched(
         rear_face: RearFace::of(scenario),
         recommended,
         note,
+        contradiction,
         range,
         axisymmetric,
         experiments: ExperimentRecord::all(scenario),
@@ -323,12 +327,6 @@ impl Limits {
         self.results
             .iter()
             .any(|limit| limit.outcome == LimitOutcome::Found)
-    }
-
-    /// The axisymmetric limit, where it contradicts another one [m/s].
-    pub fn contradicted_by(&self, limit: f64) -> Option<f64> {
-        let axisymmetric = self.axisymmetric.as_ref()?.ballistic_limit_m_s?;
-        recommended::contradict(axisymmetric / limit).then_some(axisymmetric)
     }
 
     /// Whether a model is recommended.

@@ -10,21 +10,17 @@ use crate::{
 /// `power_balance` 14 % on steel, `axi` 12 % high).
 const CONTRADICTION: f64 = 1.3;
 
-/// Whether two limits of this ratio contradict each other.
-pub(super) fn contradict(ratio: f64) -> bool {
-    ratio.max(1.0 / ratio) > CONTRADICTION
-}
-
 /// The first choices among the models that predict limits, each classified at its own limit, and what to know of them.
 ///
 /// A first choice that predicts depths alone has not been compared with measured limits: it is named, not recommended. An axisymmetric
-/// limit of targets that can fail is the first choice where no other one has an expected error, and none contradicts it.
+/// limit of targets that can fail is the first choice where no other one has an expected error, and none contradicts it. The last value is that
+/// limit where one does [m/s].
 pub(super) fn recommended(
     models: &[&dyn Model],
     scenario: &Scenario,
     results: &[ModelLimit],
     axisymmetric: Option<&AxisymmetricLimit>,
-) -> (Vec<Choice>, Option<String>) {
+) -> (Vec<Choice>, Option<String>, Option<f64>) {
     let (choices, note) = of_models(models, scenario, results);
     let is_judged = |choice: &Choice| {
         let mut results = results.iter().filter(|entry| entry.model == choice.model);
@@ -34,7 +30,7 @@ pub(super) fn recommended(
     let cannot_fail = !axi::layers_that_cannot_fail(scenario).is_empty();
     // Without failure a plate only stretches and thins: the limit is too high.
     let Some(value) = value.filter(|_| !cannot_fail) else {
-        return (choices, note);
+        return (choices, note, None);
     };
     let ratio = |choice: &Choice| {
         let entry = results.iter().find(|entry| entry.model == choice.model);
@@ -42,7 +38,7 @@ pub(super) fn recommended(
     };
     let judged = choices.iter().any(is_judged);
     let mut ratios = choices.iter().filter_map(ratio);
-    if let Some(ratio) = ratios.find(|ratio| contradict(*ratio)) {
+    if let Some(ratio) = ratios.find(|ratio| ratio.max(1.0 / ratio) > CONTRADICTION) {
         let advice = match judged {
             true => "the error of this one is that on published limits of its kind",
             false => "take the range of all models as the uncertainty",
@@ -52,17 +48,17 @@ pub(super) fn recommended(
             significant(ratio, 2)
         );
         let notes = note.into_iter().chain([contradiction]);
-        return (choices, Some(Vec::from_iter(notes).join("; ")));
+        return (choices, Some(Vec::from_iter(notes).join("; ")), Some(value));
     }
     if judged {
-        return (choices, note);
+        return (choices, note, None);
     }
     let because = "it solves the whole impact, its mesh error is known, and no first choice has been compared with enough published limits of this kind";
     let choice = Choice {
         model: MODEL,
         because,
     };
-    (vec![choice], None)
+    (vec![choice], None, None)
 }
 
 /// The first choices among the models without the axisymmetric limit.
