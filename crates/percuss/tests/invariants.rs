@@ -212,11 +212,10 @@ proptest! {
                     if scenario.target == TargetBody::RigidWall {
                         prop_assert_ne!(result.outcome, Outcome::Separated);
                     }
-                    // Ends that meet again, after a crack or between layers, leave an error of the time step in the energy of contact,
-                    // which bodies of one element show: it stays small, and a small step decides.
-                    prop_assert!(given_back(&result) <= 2e-3, "{}", given_back(&result));
-                    let meets_again = text.contains("failure") || text.contains("layers");
-                    let given_back = if meets_again && given_back(&result) > 1e-6 {
+                    // Ends that meet again after a crack leave an error of the time step in the energy of contact, which a coarse mesh
+                    // shows: it stays below the tolerance of the balance, and a small step decides.
+                    prop_assert!(given_back(&result) <= 1e-3, "{}", given_back(&result));
+                    let given_back = if text.contains("failure") && given_back(&result) > 1e-6 {
                         model::run(chain, &case::load_str("random", &with_a_small_step(&text)).unwrap(), &mut Control::default())
                             .map_or(given_back(&result), |finer| given_back(&finer))
                     } else {
@@ -250,7 +249,7 @@ erosion_strain = 0.3
 kinematics = "small-strain"
 artificial_viscosity = { linear = 0.10478651245595405, quadratic = 1.0478651245595405 }
 "#;
-    // A rod of one element on two narrow columns.
+    // A rod of one element on two narrow columns: more than random cases may give back, an error of the step.
     let between_layers = r#"
 [projectile]
 material = "6061-t6-lesuer"

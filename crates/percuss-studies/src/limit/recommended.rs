@@ -40,7 +40,7 @@ pub(super) fn recommended(
     let mut ratios = choices.iter().filter_map(ratio);
     if let Some(ratio) = ratios.find(|ratio| ratio.max(1.0 / ratio) > CONTRADICTION) {
         let advice = match judged {
-            true => "the error of this one is that on published limits of its kind",
+            true => "the error stated with it is that on published limits of its kind",
             false => "take the range of all models as the uncertainty",
         };
         let contradiction = format!(
