@@ -212,10 +212,17 @@ proptest! {
                     if scenario.target == TargetBody::RigidWall {
                         prop_assert_ne!(result.outcome, Outcome::Separated);
                     }
-                    // Ends that meet again after a crack leave an error of the time step in the energy of contact, which a coarse mesh
-                    // shows: it stays below the tolerance of the balance, and a small step decides.
+                    if !text.contains("fracture_energy") {
+                        let energy = &result.numerics().energy;
+                        let taken = energy.contact / energy.initial;
+                        prop_assert!(energy.initial == 0.0 || taken >= -1e-9, "contact takes {taken:.2e} of the impact energy");
+                    }
+                    // What holds across a crack leaves an error of the time step in the work that opens it, and friction that held a
+                    // layer in the step in which another one strikes it leaves one in its work. A coarse mesh shows them: they stay below
+                    // the tolerance of the balance, and a small step decides.
                     prop_assert!(given_back(&result) <= 1e-3, "{}", given_back(&result));
-                    let given_back = if text.contains("failure") && given_back(&result) > 1e-6 {
+                    let meets_again = text.contains("failure") || text.contains("layers");
+                    let given_back = if meets_again && given_back(&result) > 1e-6 {
                         model::run(chain, &case::load_str("random", &with_a_small_step(&text)).unwrap(), &mut Control::default())
                             .map_or(given_back(&result), |finer| given_back(&finer))
                     } else {
@@ -231,7 +238,7 @@ proptest! {
 }
 
 #[test]
-fn what_contact_gives_back_vanishes_with_the_step() {
+fn contact_between_free_ends_only_takes_energy() {
     let after_a_crack = r#"
 [projectile]
 material = "tungsten-steinberg"
@@ -249,7 +256,7 @@ erosion_strain = 0.3
 kinematics = "small-strain"
 artificial_viscosity = { linear = 0.10478651245595405, quadratic = 1.0478651245595405 }
 "#;
-    // A rod of one element on two narrow columns: more than random cases may give back, an error of the step.
+    // A rod of one element on two narrow columns.
     let between_layers = r#"
 [projectile]
 material = "6061-t6-lesuer"
@@ -263,11 +270,12 @@ back_face = "fixed"
 projectile_elements = 1
 target_elements = 6
 "#;
-    for (text, expected) in [(after_a_crack, 1e-4..3e-4), (between_layers, 1e-3..1.3e-3)] {
-        let coarse = given_back(&run(text));
-        let fine = given_back(&run(&with_a_small_step(text)));
-        assert!(expected.contains(&coarse), "{coarse}");
-        assert!(fine <= 1e-6, "{fine}");
+    // Joined before they part, ends that have just met gave back 2e-4 and 1.2e-3 of the impact energy here.
+    for text in [after_a_crack, between_layers] {
+        for text in [text, &with_a_small_step(text)] {
+            let given_back = given_back(&run(text));
+            assert!(given_back <= 1e-9, "{given_back}");
+        }
     }
 }
 

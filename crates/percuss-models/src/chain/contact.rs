@@ -30,6 +30,13 @@ impl State {
     /// Holds the end that touches a wall, or lets it leave.
     fn kick_wall(&mut self, s: usize, kick: f64) {
         let [a, b] = self.ends(s);
+        let push = self.nodes[a].force;
+        if push < -self.interfaces[s].bond.holds() {
+            self.part_ends(s);
+            self.kick_free(a, kick);
+            self.kick_boundary(b, kick);
+            return;
+        }
         for i in [a, b] {
             let jump = 0.0 - self.nodes[i].velocity;
             self.account_for_jump(i, jump, -self.time_step);
@@ -38,13 +45,6 @@ impl State {
             }
             self.nodes[i].velocity_before = 0.0;
             self.nodes[i].velocity = 0.0;
-        }
-        let push = self.nodes[a].force;
-        if push < -self.interfaces[s].bond.holds() {
-            self.part_ends(s);
-            self.kick_free(a, kick);
-            self.kick_boundary(b, kick);
-            return;
         }
         self.back_force = push + self.nodes[b].force;
         self.accumulated.support_impulse += self.back_force * kick;
@@ -122,7 +122,7 @@ impl State {
             let fixed = self.is_fixed(b);
             let shares = if fixed { [1.0, 0.0] } else { pair.shares() };
             let accumulated = &mut self.accumulated;
-            let change = pair.meet(gap, time_step, shares, &mut accumulated.kicks.contact_loss);
+            let change = pair.meet(gap, time_step, shares, &mut accumulated.kicks);
             if fixed {
                 accumulated.support_impulse += pair.mass[0] * change;
             }

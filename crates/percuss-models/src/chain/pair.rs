@@ -59,7 +59,8 @@ impl Pair {
     /// Kicks two ends as one. Whether friction acts on the first of them, too, is known beforehand; `drift` is the length of the step
     /// before.
     ///
-    /// Both start the kick with their common velocity; what that costs is the loss of a plastic impact.
+    /// Both start the kick with their common velocity; what that costs is the loss of a plastic impact. It is never negative while the
+    /// ends push each other: the forces then accelerate them towards each other.
     #[inline(always)]
     fn join<const BOTH_RUB: bool>(&self, kick: f64, drift: f64, contact_loss: f64) -> Joined {
         let ([mass_a, mass_b], [velocity_a, velocity_b]) = (self.mass, self.velocity);
@@ -89,7 +90,8 @@ impl Pair {
     }
 
     /// Kicks two ends, together where they touch and stay so. They part where they would pull each other by more than `holds`, and
-    /// that pulls from then on. The times are those of the kick and of the drift before it.
+    /// that pulls from then on. Ends that nothing holds part from their own velocities: joined first, ends that have just met would gain
+    /// energy. The times are those of the kick and of the drift before it.
     #[inline(always)]
     pub(super) fn kick(
         &self,
@@ -101,24 +103,27 @@ impl Pair {
         let (mut start, mut pull) = (self.velocity, 0.0);
         if closed {
             let joined = self.join::<true>(time, drift, sums.contact_loss);
-            sums.contact_loss = joined.contact_loss;
-            start = [joined.before; 2];
             if joined.push >= -holds {
+                sums.contact_loss = joined.contact_loss;
                 sums.friction
                     .add(joined.lost, joined.before, joined.velocity);
                 return KickedPair {
-                    start,
+                    start: [joined.before; 2],
                     velocity: [joined.velocity; 2],
                     closed,
                     push: joined.push,
                     sums,
                 };
             }
-            pull = holds;
+            if holds > 0.0 {
+                sums.contact_loss = joined.contact_loss;
+                start = [joined.before; 2];
+                pull = holds;
+            }
         }
         let mut velocity = start;
-        for (end, pull) in [pull, -pull].into_iter().enumerate() {
-            let force = [self.force[end] + pull, self.friction[end]];
+        for (end, pulled) in [pull, -pull].into_iter().enumerate() {
+            let force = [self.force[end] + pulled, self.friction[end]];
             let (mass, before) = (self.mass[end], start[end]);
             let kicked = kick([mass, before], force, time / mass);
             sums.friction.add(kicked.lost, before, kicked.velocity);
@@ -146,11 +151,11 @@ impl Pair {
         let stays = closed & (joined.push >= 0.0);
         let [mass_a, mass_b] = self.mass;
         let [velocity_a, velocity_b] = self.velocity;
-        let start_a = if closed { joined.before } else { velocity_a };
-        let start_b = if closed { joined.before } else { velocity_b };
-        let alone_a = start_a + self.force[0] * (time / mass_a);
+        let start_a = if stays { joined.before } else { velocity_a };
+        let start_b = if stays { joined.before } else { velocity_b };
+        let alone_a = velocity_a + self.force[0] * (time / mass_a);
         let force = [self.force[1], self.friction[1]];
-        let alone_b = kick([mass_b, start_b], force, time / mass_b);
+        let alone_b = kick([mass_b, velocity_b], force, time / mass_b);
         let velocity_a = if stays { joined.velocity } else { alone_a };
         let velocity_b = if stays {
             joined.velocity
@@ -159,7 +164,7 @@ impl Pair {
         };
         let lost = if stays { joined.lost } else { alone_b.lost };
         sums.friction.add(lost, start_b, velocity_b);
-        sums.contact_loss = if closed {
+        sums.contact_loss = if stays {
             joined.contact_loss
         } else {
             sums.contact_loss
@@ -186,12 +191,15 @@ impl Pair {
     }
 
     /// Lets two ends across a gap meet at the end of a drift, each taking its share of the change of velocity; gives the change.
+    ///
+    /// Friction that held an end through the kick before balanced its springs. Their work over the rest of the way is then not what
+    /// contact takes, but friction.
     pub(super) fn meet(
         &mut self,
         gap: f64,
         drift: f64,
         [share_a, share_b]: [f64; 2],
-        contact_loss: &mut f64,
+        sums: &mut KickSums,
     ) -> f64 {
         let approach = self.velocity[0] - self.velocity[1];
         let change = approach - larger(gap, 0.0) / drift;
@@ -199,7 +207,12 @@ impl Pair {
             .into_iter()
             .enumerate()
         {
-            *contact_loss -= self.jump_energy(end, jump, drift);
+            sums.contact_loss -= self.jump_energy(end, jump, drift);
+            if self.velocity[end] == 0.0 && self.friction[end] > 0.0 {
+                let work_of_springs = 0.5 * drift * self.spring_force[end] * jump;
+                sums.contact_loss -= work_of_springs;
+                sums.friction.work += work_of_springs;
+            }
             self.velocity[end] += jump;
         }
         change

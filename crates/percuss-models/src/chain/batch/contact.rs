@@ -137,8 +137,9 @@ impl Bundle {
         let mut pair = self.pair([a, b], lane);
         let gap = self.nodes[b].position.0[lane] - self.nodes[a].position.0[lane];
         let shares = pair.shares();
-        let loss = &mut self.scalars.accumulated.kicks.contact_loss.0[lane];
-        pair.meet(gap, step.length.0[lane], shares, loss);
+        let mut sums = self.scalars.accumulated.kicks.lane(lane);
+        pair.meet(gap, step.length.0[lane], shares, &mut sums);
+        self.scalars.accumulated.kicks.set_lane(lane, sums);
         for (node, velocity) in [a, b].into_iter().zip(pair.velocity) {
             self.nodes[node].velocity.0[lane] = velocity;
         }
