@@ -107,7 +107,7 @@ impl State {
     }
 
     /// Closes every gap that would overlap at the end of the step, so that it is zero then.
-    pub(super) fn close_contacts(&mut self, time_step: f64) {
+    pub(super) fn close_contacts(&mut self, kick: f64, time_step: f64) {
         for s in 0..self.interfaces.len() {
             if self.interfaces[s].closed {
                 continue;
@@ -122,13 +122,16 @@ impl State {
             let fixed = self.is_fixed(b);
             let shares = if fixed { [1.0, 0.0] } else { pair.shares() };
             let accumulated = &mut self.accumulated;
-            let change = pair.meet(gap, time_step, shares, &mut accumulated.kicks);
+            let faster = pair.let_go(kick, shares, &mut accumulated.kicks.friction);
+            let loss = &mut accumulated.kicks.contact_loss;
+            let change = pair.meet(gap, time_step, shares, loss);
             if fixed {
                 accumulated.support_impulse += pair.mass[0] * change;
             }
             // What holds across the gap pulls over the way that is left, and no more at its end: the half drift before the kick
             // was accounted for at the speed before the jump, the one before the next kick will not be.
-            let pulled = 0.5 * self.interfaces[s].pull * (time_step * change - gap.max(0.0));
+            let pull = self.interfaces[s].pull;
+            let pulled = 0.5 * pull * (time_step * (change - faster) - gap.max(0.0));
             accumulated.fracture_work += pulled;
             accumulated.kicks.contact_loss -= pulled;
             [self.nodes[a].velocity, self.nodes[b].velocity] = pair.velocity;

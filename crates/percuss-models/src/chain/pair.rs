@@ -191,15 +191,12 @@ impl Pair {
     }
 
     /// Lets two ends across a gap meet at the end of a drift, each taking its share of the change of velocity; gives the change.
-    ///
-    /// Friction that held an end through the kick before balanced its springs. Their work over the rest of the way is then not what
-    /// contact takes, but friction.
     pub(super) fn meet(
         &mut self,
         gap: f64,
         drift: f64,
         [share_a, share_b]: [f64; 2],
-        sums: &mut KickSums,
+        contact_loss: &mut f64,
     ) -> f64 {
         let approach = self.velocity[0] - self.velocity[1];
         let change = approach - larger(gap, 0.0) / drift;
@@ -207,15 +204,33 @@ impl Pair {
             .into_iter()
             .enumerate()
         {
-            sums.contact_loss -= self.jump_energy(end, jump, drift);
-            if self.velocity[end] == 0.0 && self.friction[end] > 0.0 {
-                let work_of_springs = 0.5 * drift * self.spring_force[end] * jump;
-                sums.contact_loss -= work_of_springs;
-                sums.friction.work += work_of_springs;
-            }
+            *contact_loss -= self.jump_energy(end, jump, drift);
             self.velocity[end] += jump;
         }
         change
+    }
+
+    /// Lets ends go that are to meet, and that friction held in the kick before although springs push them together. Held friction would
+    /// push an end that the other one sets in motion, and so give energy. Returns the speed [m/s] by which they approach faster.
+    ///
+    /// An end without a share in the change of velocity is held by a wall.
+    pub(super) fn let_go(
+        &mut self,
+        kick: f64,
+        shares: [f64; 2],
+        friction: &mut FrictionSums,
+    ) -> f64 {
+        let mut faster = 0.0;
+        for (end, towards) in [1.0, -1.0].into_iter().enumerate() {
+            let is_held = self.velocity[end] == 0.0 && self.friction[end] > 0.0;
+            if is_held && shares[end] > 0.0 && towards * self.spring_force[end] > 0.0 {
+                let impulse = self.spring_force[end] * kick;
+                friction.impulse -= impulse;
+                self.velocity[end] = impulse / self.mass[end];
+                faster += towards * self.velocity[end];
+            }
+        }
+        faster
     }
 
     /// Shares of two free ends in a change of their velocities.

@@ -145,7 +145,7 @@ impl State {
         if control.local_damping > 0.0 {
             self.account_for_local_damping(kick);
         }
-        self.close_contacts(time_step);
+        self.close_contacts(kick, time_step);
         self.drift(control, time_step)?;
         self.drift_plate(time_step);
         self.time += time_step;

@@ -138,7 +138,8 @@ impl Bundle {
         let gap = self.nodes[b].position.0[lane] - self.nodes[a].position.0[lane];
         let shares = pair.shares();
         let mut sums = self.scalars.accumulated.kicks.lane(lane);
-        pair.meet(gap, step.length.0[lane], shares, &mut sums);
+        pair.let_go(step.kick.0[lane], shares, &mut sums.friction);
+        pair.meet(gap, step.length.0[lane], shares, &mut sums.contact_loss);
         self.scalars.accumulated.kicks.set_lane(lane, sums);
         for (node, velocity) in [a, b].into_iter().zip(pair.velocity) {
             self.nodes[node].velocity.0[lane] = velocity;
