@@ -46,7 +46,10 @@ test("curves and text follow a slider while it moves", async () => {
     await page.mouse.move(box.x + box.width * (0.18 + 0.05 * i), y);
     await answered(page, count + 1);
   }
+  // The browser may hold the last movements back until the next frame; the slider has its last place when it says that it has changed.
+  await slider.evaluate((input) => input.addEventListener("change", () => (window.released = true)));
   await page.mouse.up();
+  await page.waitForFunction(() => window.released);
   // The text has the last place of the slider when its numbers are there.
   await page.waitForFunction(() => {
     const speed = document.getElementById("field-projectile-impact_velocity").value;
