@@ -9,11 +9,13 @@
 
 use std::ops::{Deref, DerefMut};
 
+use serde::{Deserialize, Serialize};
+
 /// Lanes: as many numbers as the widest registers hold.
 pub const LANES: usize = 8;
 
 /// A number in every lane, which one load brings.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[repr(C, align(64))]
 pub struct Lanes(pub [f64; LANES]);
 

@@ -41,7 +41,7 @@ pub(super) fn probe<L: Law>(grid: &Grid<L>, before: f64) -> Probe {
 /// Whether the projectile's momentum is used up.
 pub(super) fn is_at_rest<L: Law>(grid: &Grid<L>, impact_velocity: f64) -> bool {
     // The tail is the last to hear of the impact: no need to sum up before it slows down.
-    grid.nodes[0].velocity < 0.5 * impact_velocity && grid.motion(0).1 <= 0.0
+    grid.nodes.velocity[0] < 0.5 * impact_velocity && grid.motion(0).1 <= 0.0
 }
 
 /// Whether the time step has collapsed.

@@ -1,8 +1,10 @@
 //! Energy and momentum balances of a grid.
 
+use std::ops::RangeInclusive;
+
 use serde::{Deserialize, Serialize};
 
-use super::{Grid, Law, Motion, Stored};
+use super::{Cells, Grid, Law, Motion, Stored};
 use crate::ledger::{EnergyLedger, MomentumLedger};
 
 /// Work and impulse that have gone where the state itself does not show them.
@@ -33,9 +35,9 @@ impl<L: Law> Grid<L> {
             let law = &self.bodies[segment.body];
             let sum = &mut sums[Self::role(segment.body)];
             for c in segment.cells.clone() {
-                let (a, b) = (&self.nodes[c + s], &self.nodes[c + s + 1]);
+                let (a, b) = (self.nodes.at(c + s), self.nodes.at(c + s + 1));
                 let approach = a.velocity - b.velocity;
-                let mut cell = self.cells[c];
+                let mut cell = self.cells.cell(c);
                 law.load(
                     &mut cell,
                     Motion {
@@ -54,13 +56,19 @@ impl<L: Law> Grid<L> {
         sums
     }
 
+    /// Masses and velocities of nodes.
+    fn masses(&self, nodes: RangeInclusive<usize>) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let masses = self.nodes.mass[nodes.clone()].iter().copied();
+        masses.zip(self.nodes.velocity[nodes].iter().copied())
+    }
+
     /// Energy balance.
     pub(in crate::fdm) fn energy(&self) -> EnergyLedger {
         let mut kinetic = [0.0; 2];
         for (s, segment) in self.segments.iter().enumerate() {
             let (first, last) = self.span(s);
-            for node in &self.nodes[first..=last] {
-                kinetic[Self::role(segment.body)] += 0.5 * node.mass * node.velocity.powi(2);
+            for (mass, velocity) in self.masses(first..=last) {
+                kinetic[Self::role(segment.body)] += 0.5 * mass * velocity.powi(2);
             }
         }
         let [projectile, target] = self.stored();
@@ -85,9 +93,9 @@ impl<L: Law> Grid<L> {
         for (s, segment) in self.segments.iter().enumerate() {
             if Self::role(segment.body) == role {
                 let (first, last) = self.span(s);
-                for node in &self.nodes[first..=last] {
-                    sums.0 += node.mass;
-                    sums.1 += node.mass * node.velocity;
+                for (mass, velocity) in self.masses(first..=last) {
+                    sums.0 += mass;
+                    sums.1 += mass * velocity;
                 }
             }
         }

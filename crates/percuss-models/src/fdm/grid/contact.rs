@@ -1,6 +1,6 @@
 //! Contact between segments: one shared node while they press on each other, two when they do not.
 
-use super::{BoundaryCondition, Grid, Law, kick::dry_friction};
+use super::{BoundaryCondition, Grid, Law, kick::dry_friction, nodes::Node};
 
 impl<L: Law> Grid<L> {
     /// Moves the shared node of a closed contact, or splits it when it would have to pull.
@@ -8,21 +8,20 @@ impl<L: Law> Grid<L> {
         let a = self.span(s).1;
         let b = a + 1;
         if let BoundaryCondition::Driven(velocity) = self.hold(b) {
-            let node = &mut self.nodes[a];
+            let node = self.nodes.at(a);
             let impulse = node.force * time_step - node.mass * (velocity - node.before);
             if impulse < 0.0 {
                 self.part(s, time_step);
                 return;
             }
-            node.velocity = velocity;
-            self.nodes[b].velocity = velocity;
+            self.nodes.velocity[a..=b].fill(velocity);
             self.accumulated.support_impulse += impulse;
             self.accumulated.boundary_work += impulse * velocity;
             self.back_force = impulse / time_step;
             self.note_contact(s, impulse / time_step);
             return;
         }
-        let (back, front) = (self.nodes[a], self.nodes[b]);
+        let (back, front) = (self.nodes.at(a), self.nodes.at(b));
         let mass = back.mass + front.mass;
         let limit = back.friction + front.friction;
         let change = (back.force + front.force) * time_step / mass;
@@ -38,10 +37,9 @@ impl<L: Law> Grid<L> {
             self.part(s, time_step);
             return;
         }
-        self.nodes[a].velocity = velocity;
-        self.nodes[b].velocity = velocity;
-        self.nodes[a].lost_impulse = own;
-        self.nodes[b].lost_impulse = mass * taken - own;
+        self.nodes.velocity[a..=b].fill(velocity);
+        self.nodes.lost_impulse[a] = own;
+        self.nodes.lost_impulse[b] = mass * taken - own;
         self.note_contact(s, impulse / time_step);
     }
 
@@ -65,9 +63,9 @@ impl<L: Law> Grid<L> {
                 continue;
             }
             let a = self.span(s).1;
-            let (back, front) = (self.nodes[a], self.nodes[a + 1]);
+            let (back, front) = (self.nodes.at(a), self.nodes.at(a + 1));
             let gap = front.position - back.position;
-            let approach = |end: fn(&super::Node) -> f64| end(&back) - end(&front);
+            let approach = |end: fn(&Node) -> f64| end(&back) - end(&front);
             let mean = 0.5 * (approach(|node| node.before) + approach(|node| node.velocity));
             if gap - mean * time_step > 0.0 {
                 continue;
@@ -83,22 +81,24 @@ impl<L: Law> Grid<L> {
     pub(super) fn join_met(&mut self) {
         for s in 0..self.closed.len() {
             let a = self.span(s).1;
-            let approach = self.nodes[a].velocity - self.nodes[a + 1].velocity;
+            let approach = self.nodes.velocity[a] - self.nodes.velocity[a + 1];
             if !self.closed[s] || approach == 0.0 {
                 continue;
             }
             for i in [a, a + 1] {
-                self.nodes[i].before = self.nodes[i].velocity;
+                self.nodes.before[i] = self.nodes.velocity[i];
             }
             self.push_apart(a, approach);
             // Both have one velocity now, whatever the last digit says.
-            self.nodes[a].velocity = self.nodes[a + 1].velocity;
+            self.nodes.velocity[a] = self.nodes.velocity[a + 1];
             if L::STORED_ACROSS_STEPS {
                 // The stored energy is half the product of the loads on either side of a time. The one ahead changes with
                 // the jump now; the one behind will differ from it by the jump when the next step begins.
-                for node in &mut self.nodes[a..=a + 1] {
-                    node.jump = node.velocity - node.before;
-                    self.accumulated.contact_loss += 0.25 * node.force * node.jump * self.time_step;
+                for i in [a, a + 1] {
+                    let node = self.nodes.at(i);
+                    let jump = node.velocity - node.before;
+                    self.nodes.jump[i] = jump;
+                    self.accumulated.contact_loss += 0.25 * node.force * jump * self.time_step;
                 }
             }
         }
@@ -106,9 +106,13 @@ impl<L: Law> Grid<L> {
 
     /// Completes the account of the jumps of the last step, now that the load ahead of them is known.
     pub(super) fn account_for_jumps(&mut self, time_step: f64) {
-        for node in self.nodes.iter_mut().filter(|node| node.jump != 0.0) {
-            self.accumulated.contact_loss -= 0.25 * node.force * node.jump * time_step;
-            node.jump = 0.0;
+        // Only nodes that touch have a jump, or touched.
+        for s in 0..self.closed.len() {
+            let a = self.span(s).1;
+            for i in [a, a + 1] {
+                let jump = std::mem::take(&mut self.nodes.jump[i]);
+                self.accumulated.contact_loss -= 0.25 * self.nodes.force[i] * jump * time_step;
+            }
         }
     }
 
@@ -116,7 +120,7 @@ impl<L: Law> Grid<L> {
     pub(super) fn join_moving(&mut self) {
         for s in 0..self.closed.len() {
             let a = self.span(s).1;
-            if self.nodes[a].velocity < self.nodes[a + 1].velocity {
+            if self.nodes.velocity[a] < self.nodes.velocity[a + 1] {
                 self.closed[s] = false;
             }
         }
@@ -126,22 +130,22 @@ impl<L: Law> Grid<L> {
     fn push_apart(&mut self, a: usize, change: f64) {
         let b = a + 1;
         let driven = matches!(self.hold(b), BoundaryCondition::Driven(_));
-        let (back, front) = (self.nodes[a], self.nodes[b]);
+        let (back, front) = (self.nodes.at(a), self.nodes.at(b));
         let impulse = if driven {
             back.mass * change
         } else {
             change * back.mass * front.mass / (back.mass + front.mass)
         };
-        self.nodes[a].velocity -= impulse / back.mass;
-        let work_back = impulse * 0.5 * (back.before + self.nodes[a].velocity);
+        self.nodes.velocity[a] -= impulse / back.mass;
+        let work_back = impulse * 0.5 * (back.before + self.nodes.velocity[a]);
         let work_front = if driven {
             let work = impulse * front.velocity;
             self.accumulated.support_impulse += impulse;
             self.accumulated.boundary_work += work;
             work
         } else {
-            self.nodes[b].velocity += impulse / front.mass;
-            impulse * 0.5 * (front.before + self.nodes[b].velocity)
+            self.nodes.velocity[b] += impulse / front.mass;
+            impulse * 0.5 * (front.before + self.nodes.velocity[b])
         };
         self.accumulated.contact_loss += work_back - work_front;
     }

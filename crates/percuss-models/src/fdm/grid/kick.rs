@@ -1,46 +1,31 @@
 //! New velocities from the forces of a step.
 
-use super::{BoundaryCondition, Grid, Law, Node};
+use std::ops::Range;
 
-/// Moves a node by a force, dry friction holding against it.
+use super::{BoundaryCondition, Grid, Law, nodes::Kick};
+
+/// Velocity after a change by forces and one of at most `limit` by friction, and what friction took.
 ///
 /// Friction opposes the velocity after the kick and holds the node still when it can. Where the velocity turns within the
 /// step it could push on average: it may not, and the node is left to the force alone.
-fn kick(node: &mut Node, time_step: f64) {
-    let change = node.force * time_step / node.mass;
-    if node.friction == 0.0 {
-        node.velocity += change;
-        node.lost_impulse = 0.0;
-        return;
-    }
-    let limit = node.friction * time_step / node.mass;
-    (node.velocity, node.lost_impulse) = dry_friction(node.velocity, change, limit);
-    node.lost_impulse *= node.mass;
-}
-
-/// Velocity after a change by forces and one of at most `limit` by friction, and what friction took.
+#[inline(always)]
 pub(super) fn dry_friction(before: f64, change: f64, limit: f64) -> (f64, f64) {
     let free = before + change;
-    if limit == 0.0 {
-        return (free, 0.0);
-    }
     // Without branches: which way they go changes from node to node.
     let slowed = free - limit.copysign(free);
     let after = if free.abs() <= limit { 0.0 } else { slowed };
     let taken = free - after;
-    let pushes = taken * (before + after) < 0.0;
-    let velocity = if pushes { free } else { after };
-    (velocity, if pushes { 0.0 } else { taken })
+    let is_free = (taken * (before + after) < 0.0) | (limit == 0.0);
+    let velocity = if is_free { free } else { after };
+    (velocity, if is_free { 0.0 } else { taken })
 }
 
 impl<L: Law> Grid<L> {
     pub(super) fn kick(&mut self, time_step: f64) {
         self.contact_force = 0.0;
         self.back_force = 0.0;
-        for node in &mut self.nodes {
-            node.before = node.velocity;
-            node.lost_impulse = 0.0;
-        }
+        self.nodes.before.copy_from_slice(&self.nodes.velocity);
+        self.nodes.lost_impulse.fill(0.0);
         let segments = self.segments.len();
         let mut joined_ahead = false;
         for s in 0..segments {
@@ -51,9 +36,7 @@ impl<L: Law> Grid<L> {
             }
             if first < last {
                 // Nothing holds the nodes in between.
-                for node in &mut self.nodes[first + 1..last] {
-                    kick(node, time_step);
-                }
+                self.kick_free(first + 1..last, time_step);
                 if !joined_behind {
                     self.kick_alone(last, time_step);
                 }
@@ -64,7 +47,8 @@ impl<L: Law> Grid<L> {
             joined_ahead = joined_behind;
         }
         if self.tip_pressure > 0.0 {
-            self.contact_force = self.nodes[self.nodes.len() - 1].lost_impulse / time_step;
+            let last = self.nodes.last().unwrap_or_default();
+            self.contact_force = last.lost_impulse / time_step;
         }
     }
 
@@ -77,21 +61,29 @@ impl<L: Law> Grid<L> {
         }
     }
 
+    fn kick_free(&mut self, range: Range<usize>, time_step: f64) {
+        pulp::Arch::new().dispatch(Kick {
+            nodes: &mut self.nodes,
+            range,
+            time_step,
+        });
+    }
+
     pub(super) fn kick_alone(&mut self, i: usize, time_step: f64) {
-        let end = self.hold(i);
-        let node = &mut self.nodes[i];
-        match end {
-            BoundaryCondition::Free => return kick(node, time_step),
-            BoundaryCondition::Driven(velocity) => node.velocity = velocity,
+        let node = self.nodes.at(i);
+        let velocity = match self.hold(i) {
+            BoundaryCondition::Free => return self.kick_free(i..i + 1, time_step),
+            BoundaryCondition::Driven(velocity) => velocity,
             BoundaryCondition::Dashpot(impedance) => {
                 let inertia = node.mass / time_step;
-                node.velocity = ((inertia - 0.5 * impedance) * node.before + node.force)
-                    / (inertia + 0.5 * impedance);
+                ((inertia - 0.5 * impedance) * node.before + node.force)
+                    / (inertia + 0.5 * impedance)
             }
-        }
+        };
+        self.nodes.velocity[i] = velocity;
         // What the end took follows from what the node did not gain.
-        let impulse = node.force * time_step - node.mass * (node.velocity - node.before);
-        let work = impulse * 0.5 * (node.before + node.velocity);
+        let impulse = node.force * time_step - node.mass * (velocity - node.before);
+        let work = impulse * 0.5 * (node.before + velocity);
         self.accumulated.support_impulse += impulse;
         self.accumulated.boundary_work += work;
         if i + 1 == self.nodes.len() {

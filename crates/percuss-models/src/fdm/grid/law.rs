@@ -1,8 +1,10 @@
 //! Interface of a material law to the grid.
 
-use std::fmt;
+use std::{fmt, ops::Range};
 
 use serde::{Serialize, de::DeserializeOwned};
+
+use super::limited;
 
 /// How a cell moves in the middle of a step.
 #[derive(Debug, Clone, Copy)]
@@ -15,6 +17,57 @@ pub(in crate::fdm) struct Motion {
     pub(in crate::fdm) since_load: f64,
     /// Time step [s].
     pub(in crate::fdm) time_step: f64,
+}
+
+/// How all cells move in the middle of a step; lists go on to a multiple of eight.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::fdm) struct Motions<'a> {
+    pub(in crate::fdm) lengths: &'a [f64],
+    pub(in crate::fdm) approaches: &'a [f64],
+    pub(in crate::fdm) since_load: f64,
+    pub(in crate::fdm) time_step: f64,
+}
+
+impl Motions<'_> {
+    /// How one cell moves.
+    pub(in crate::fdm) fn of(&self, cell: usize) -> Motion {
+        Motion {
+            length: self.lengths[cell],
+            approach: self.approaches[cell],
+            since_load: self.since_load,
+            time_step: self.time_step,
+        }
+    }
+}
+
+/// Cells of all bodies.
+pub(in crate::fdm) trait Cells<C>: fmt::Debug + Default {
+    fn count(&self) -> usize;
+
+    /// A copy of a cell.
+    fn cell(&self, i: usize) -> C;
+
+    fn set_cell(&mut self, i: usize, cell: C);
+
+    fn add(&mut self, cell: C);
+}
+
+impl<C: Copy + fmt::Debug> Cells<C> for Vec<C> {
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    fn cell(&self, i: usize) -> C {
+        self[i]
+    }
+
+    fn set_cell(&mut self, i: usize, cell: C) {
+        self[i] = cell;
+    }
+
+    fn add(&mut self, cell: C) {
+        self.push(cell);
+    }
 }
 
 /// Energy of a cell [J].
@@ -40,9 +93,12 @@ pub(in crate::fdm) struct View {
 }
 
 /// Law of one body: how its cells answer to their change of length.
-pub(in crate::fdm) trait Law: fmt::Debug {
+pub(in crate::fdm) trait Law: fmt::Debug + Sized {
     /// State of a cell.
-    type Cell: Copy + fmt::Debug + Serialize + DeserializeOwned;
+    type Cell: Copy + fmt::Debug;
+
+    /// State of all cells.
+    type Cells: Cells<Self::Cell> + Serialize + DeserializeOwned;
 
     /// Whether the stored energy is made up from the loads before and after a time, rather than kept by the work done.
     const STORED_ACROSS_STEPS: bool;
@@ -53,11 +109,15 @@ pub(in crate::fdm) trait Law: fmt::Debug {
     /// Brings the stress to the middle of the step.
     fn load(&self, cell: &mut Self::Cell, motion: Motion);
 
-    /// Does it with the cells of these numbers.
-    fn load_all(&self, cells: &mut [Self::Cell], moving: &[(usize, Motion)]) {
-        for (i, motion) in moving {
-            self.load(&mut cells[*i], *motion);
-        }
+    /// Does it with the cells of a range, and gives their forces. The cells beside them in a block of eight may be given theirs, too.
+    fn load_all(
+        &self,
+        cells: &mut Self::Cells,
+        range: Range<usize>,
+        motions: &Motions<'_>,
+        forces: &mut [f64],
+    ) {
+        load_one_by_one(self, cells, range, motions, forces);
     }
 
     /// Axial force of a loaded cell, viscosity included [N].
@@ -66,12 +126,22 @@ pub(in crate::fdm) trait Law: fmt::Debug {
     /// Completes the step at its new length, shorter by `shortening` [m]; false when the law does not reach so far.
     fn finish(&self, cell: &mut Self::Cell, length: f64, shortening: f64) -> bool;
 
+    /// Whether there is something to complete.
+    fn finishes(&self) -> bool {
+        true
+    }
+
     /// Largest stable time step [s].
     fn stable_step(&self, cell: &Self::Cell, length: f64, approach: f64) -> f64;
 
-    /// Whether the stable time step is certain to be longer than a step [s], by less work than it takes to find it.
-    fn allows(&self, _cell: &Self::Cell, _length: f64, _step: f64) -> bool {
-        false
+    /// The smallest one of a range of cells that also shorten slowly enough in it [s].
+    fn stable_step_of_all(
+        &self,
+        cells: &Self::Cells,
+        range: Range<usize>,
+        motions: &Motions<'_>,
+    ) -> f64 {
+        stable_step_one_by_one(self, cells, range, motions)
     }
 
     /// Energy at the start of the step in whose middle the cell was loaded.
@@ -80,9 +150,6 @@ pub(in crate::fdm) trait Law: fmt::Debug {
     /// What histories show.
     fn view(&self, cell: &Self::Cell) -> View;
 
-    /// Whether loading the cell at an unchanged length would change nothing.
-    fn is_settled(&self, cell: &Self::Cell) -> bool;
-
     /// Tensile stress at which the material spalls [Pa].
     fn spall_strength(&self) -> Option<f64> {
         None
@@ -90,4 +157,35 @@ pub(in crate::fdm) trait Law: fmt::Debug {
 
     /// Axial stress of a loaded cell without viscosity [Pa].
     fn axial_stress(&self, cell: &Self::Cell) -> f64;
+}
+
+/// Loads cells one by one.
+pub(in crate::fdm) fn load_one_by_one<L: Law>(
+    law: &L,
+    cells: &mut L::Cells,
+    range: Range<usize>,
+    motions: &Motions<'_>,
+    forces: &mut [f64],
+) {
+    for c in range {
+        let mut cell = cells.cell(c);
+        law.load(&mut cell, motions.of(c));
+        forces[c] = law.force(&cell);
+        cells.set_cell(c, cell);
+    }
+}
+
+/// Finds the smallest stable step of cells one by one [s].
+pub(in crate::fdm) fn stable_step_one_by_one<L: Law>(
+    law: &L,
+    cells: &L::Cells,
+    range: Range<usize>,
+    motions: &Motions<'_>,
+) -> f64 {
+    let steps = range.map(|c| {
+        let (length, approach) = (motions.lengths[c], motions.approaches[c]);
+        let stable = law.stable_step(&cells.cell(c), length, approach);
+        limited(stable, length, approach)
+    });
+    steps.fold(f64::INFINITY, f64::min)
 }

@@ -9,6 +9,7 @@ mod balance;
 mod contact;
 mod kick;
 mod law;
+mod nodes;
 mod snapshot;
 mod spall;
 
@@ -19,20 +20,23 @@ use serde::{Deserialize, Serialize};
 use crate::{
     Error,
     error::NumericalError,
+    lanes::LANES,
     solver::{archive::Archive, monitor::Clock},
 };
 
 pub(in crate::fdm) use balance::Accumulators;
-pub(in crate::fdm) use law::{Law, Motion, Stored, View};
+pub(in crate::fdm) use law::{
+    Cells, Law, Motion, Motions, Stored, View, load_one_by_one, stable_step_one_by_one,
+};
 pub(in crate::fdm) use spall::Spall;
+
+use nodes::{Collect, Drift, Measure, Node, Nodes};
 
 /// Largest change of length of a cell in one step, as a part of its length.
 const LARGEST_SHORTENING: f64 = 0.02;
 /// The time step grows only when it could grow by this factor, and no faster than by the second one.
 const SLACK: f64 = 1.1;
 const GROWTH: f64 = 1.05;
-/// Factor on a step that no rounding of the stable step of a cell makes up for.
-const ROUNDING: f64 = 1.0 + 1e-9;
 
 /// Boundary condition of an end of the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,24 +47,6 @@ pub(in crate::fdm) enum BoundaryCondition {
     Driven(f64),
     /// Viscous boundary that takes up a wave without reflecting it \[lysmer1969\]; its impedance [N s/m].
     Dashpot(f64),
-}
-
-/// A node: everything that moves at one velocity.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(in crate::fdm) struct Node {
-    pub(in crate::fdm) position: f64,
-    pub(in crate::fdm) velocity: f64,
-    pub(in crate::fdm) mass: f64,
-    /// Largest dry friction [N].
-    pub(in crate::fdm) friction: f64,
-    /// Velocity at the start of the step.
-    before: f64,
-    /// Force of the cells [N].
-    force: f64,
-    /// Impulse that friction took in this step [N s].
-    lost_impulse: f64,
-    /// Jump of velocity at the end of the last step, not yet accounted for to the end [m/s].
-    jump: f64,
 }
 
 /// Cells of one body that hang together; the nodes of segment `s` are those from `cells.start + s` to `cells.end + s`.
@@ -77,18 +63,18 @@ pub(in crate::fdm) struct Grid<L: Law> {
     pub(in crate::fdm) segments: Vec<Segment>,
     /// `closed[s]`: whether segments `s` and `s + 1` touch.
     pub(in crate::fdm) closed: Vec<bool>,
-    pub(in crate::fdm) nodes: Vec<Node>,
-    pub(in crate::fdm) cells: Vec<L::Cell>,
+    pub(in crate::fdm) nodes: Nodes,
+    pub(in crate::fdm) cells: L::Cells,
     pub(in crate::fdm) ends: [BoundaryCondition; 2],
     pub(in crate::fdm) time: f64,
     pub(in crate::fdm) step: u64,
     pub(in crate::fdm) time_step: f64,
     /// Largest stable time step of the current state.
     pub(in crate::fdm) stable_step: f64,
-    /// Cell that sets it, where the next search begins.
-    tightest: usize,
-    /// Cells of a segment that a step changes; in a step only.
-    moving: Vec<(usize, Motion)>,
+    /// Of every cell, in a step only: its length [m], the speed at which its faces approach [m/s], its force [N].
+    lengths: Vec<f64>,
+    approaches: Vec<f64>,
+    forces: Vec<f64>,
     /// Force between projectile and target in the last step [N].
     pub(in crate::fdm) contact_force: f64,
     /// Force on what holds the last node in the last step [N].
@@ -122,15 +108,16 @@ impl<L: Law> Grid<L> {
             bodies: Vec::new(),
             segments: Vec::new(),
             closed: Vec::new(),
-            nodes: Vec::new(),
-            cells: Vec::new(),
+            nodes: Nodes::default(),
+            cells: L::Cells::default(),
             ends,
             time: 0.0,
             step: 0,
             time_step: 0.0,
             stable_step: f64::INFINITY,
-            tightest: 0,
-            moving: Vec::new(),
+            lengths: Vec::new(),
+            approaches: Vec::new(),
+            forces: Vec::new(),
             contact_force: 0.0,
             back_force: 0.0,
             tip_pressure: 0.0,
@@ -142,17 +129,21 @@ impl<L: Law> Grid<L> {
             grid.add(body, slab);
         }
         let last = grid.nodes.len() - 1;
-        grid.back_position = grid.nodes[last].position;
+        grid.back_position = grid.nodes.position[last];
         if let [BoundaryCondition::Driven(velocity), _] = grid.ends {
-            grid.nodes[0].velocity = velocity;
+            grid.nodes.velocity[0] = velocity;
         }
         if let [_, BoundaryCondition::Driven(velocity)] = grid.ends {
-            grid.nodes[last].velocity = velocity;
+            grid.nodes.velocity[last] = velocity;
         }
+        let count = grid.cells.count().next_multiple_of(LANES);
+        (grid.lengths, grid.approaches) = (vec![1.0; count], vec![0.0; count]);
+        grid.forces = vec![0.0; count];
         grid.accumulated.initial_energy = grid.energy().total();
         grid.accumulated.initial_momentum = grid.momentum().residual();
         grid.join_moving();
         grid.join_met();
+        grid.measure(0.0);
         grid.find_stable_step();
         grid
     }
@@ -170,18 +161,18 @@ impl<L: Law> Grid<L> {
                 ..Node::default()
             });
         }
-        let start = self.cells.len();
+        let start = self.cells.count();
         for i in first..first + slab.cells {
-            let (back, front) = (self.nodes[i].position, self.nodes[i + 1].position);
-            self.cells.push(slab.law.cell(back, front));
-            for node in &mut self.nodes[i..=i + 1] {
-                node.mass += 0.5 * slab.line_density * size;
-                node.friction += 0.5 * slab.line_friction * size;
+            let (back, front) = (self.nodes.position[i], self.nodes.position[i + 1]);
+            self.cells.add(slab.law.cell(back, front));
+            for node in [i, i + 1] {
+                self.nodes.mass[node] += 0.5 * slab.line_density * size;
+                self.nodes.friction[node] += 0.5 * slab.line_friction * size;
             }
         }
         self.segments.push(Segment {
             body,
-            cells: start..self.cells.len(),
+            cells: start..self.cells.count(),
         });
         self.bodies.push(slab.law);
     }
@@ -253,99 +244,98 @@ impl<L: Law> Grid<L> {
         }
     }
 
+    /// Finds the lengths of the cells after `lead` [s]; whether every cell has one.
+    fn measure(&mut self, lead: f64) -> bool {
+        let mut whole = true;
+        for s in 0..self.segments.len() {
+            let ((first, last), cells) = (self.span(s), self.segments[s].cells.clone());
+            whole &= pulp::Arch::new().dispatch(Measure {
+                positions: &self.nodes.position[first..=last],
+                velocities: &self.nodes.velocity[first..=last],
+                lead,
+                lengths: &mut self.lengths[cells.clone()],
+                approaches: &mut self.approaches[cells],
+            });
+        }
+        whole
+    }
+
+    /// Why a step ends in which cells have no length.
+    fn no_length(&self) -> NumericalError {
+        let lengths = &self.lengths[..self.cells.count()];
+        let cell = lengths.iter().position(|l| l.is_nan() || *l <= 0.0);
+        self.inverted(cell.unwrap_or(0))
+    }
+
     /// Brings the cells to where they are after `lead` [s] and collects the forces on the nodes.
     fn load(&mut self, time_step: f64, lead: f64) -> Result<(), NumericalError> {
-        let since_load = 0.5 * (self.time_step + time_step);
+        if !self.measure(lead) {
+            return Err(self.no_length());
+        }
+        let motions = Motions {
+            lengths: &self.lengths,
+            approaches: &self.approaches,
+            since_load: 0.5 * (self.time_step + time_step),
+            time_step,
+        };
         for (s, segment) in self.segments.iter().enumerate() {
-            let law = &self.bodies[segment.body];
-            let nodes = &mut self.nodes[segment.cells.start + s..=segment.cells.end + s];
-            let cells = &mut self.cells[segment.cells.clone()];
-            self.moving.clear();
-            for (i, (cell, ends)) in cells.iter().zip(nodes.windows(2)).enumerate() {
-                let (a, b) = (&ends[0], &ends[1]);
-                let approach = a.velocity - b.velocity;
-                let moves = a.velocity != 0.0 || b.velocity != 0.0;
-                if moves || !law.is_settled(cell) {
-                    let length = b.position - a.position - approach * lead;
-                    if length.is_nan() || length <= 0.0 {
-                        return Err(self.inverted(segment.cells.start + i));
-                    }
-                    let motion = Motion {
-                        length,
-                        approach,
-                        since_load,
-                        time_step,
-                    };
-                    self.moving.push((i, motion));
-                }
-            }
-            law.load_all(cells, &self.moving);
-            let mut behind = 0.0;
-            for (node, cell) in nodes.iter_mut().zip(&*cells) {
-                let force = law.force(cell);
-                node.force = behind - force;
-                behind = force;
-            }
-            nodes[cells.len()].force = behind;
+            let (law, range) = (&self.bodies[segment.body], segment.cells.clone());
+            law.load_all(&mut self.cells, range.clone(), &motions, &mut self.forces);
+            pulp::Arch::new().dispatch(Collect {
+                of_cells: &self.forces[range.clone()],
+                on_nodes: &mut self.nodes.force[range.start + s..=range.end + s],
+            });
         }
         Ok(())
     }
 
     /// Moves the nodes, finishes the cells and finds the next stable step.
     fn drift(&mut self, time_step: f64) -> Result<(), NumericalError> {
-        for node in &mut self.nodes {
-            let mean = 0.5 * (node.before + node.velocity);
-            node.position += mean * time_step;
-            if node.lost_impulse != 0.0 {
-                self.accumulated.friction_impulse += node.lost_impulse;
-                self.accumulated.friction_work += node.lost_impulse * mean;
-            }
+        pulp::Arch::new().dispatch(Drift {
+            nodes: &mut self.nodes,
+            time_step,
+        });
+        let nodes = &self.nodes;
+        for (i, lost) in nodes.lost_impulse.iter().enumerate() {
+            let mean = 0.5 * (nodes.before[i] + nodes.velocity[i]);
+            self.accumulated.friction_impulse += lost;
+            self.accumulated.friction_work += lost * mean;
+        }
+        if !self.measure(0.0) {
+            return Err(self.no_length());
         }
         for (s, segment) in self.segments.iter().enumerate() {
-            let law = &self.bodies[segment.body];
-            let nodes = &self.nodes[segment.cells.start + s..=segment.cells.end + s];
-            for (i, cell) in self.cells[segment.cells.clone()].iter_mut().enumerate() {
-                let (a, b) = (&nodes[i], &nodes[i + 1]);
-                let length = b.position - a.position;
+            let (law, nodes) = (&self.bodies[segment.body], &self.nodes);
+            if !law.finishes() {
+                continue;
+            }
+            for c in segment.cells.clone() {
+                let (a, b) = (nodes.at(c + s), nodes.at(c + s + 1));
                 let mean = 0.5 * (a.before + a.velocity - b.before - b.velocity);
-                if length.is_nan() || length <= 0.0 || !law.finish(cell, length, mean * time_step) {
-                    return Err(self.inverted(segment.cells.start + i));
+                let mut cell = self.cells.cell(c);
+                if !law.finish(&mut cell, self.lengths[c], mean * time_step) {
+                    return Err(self.inverted(c));
                 }
+                self.cells.set_cell(c, cell);
             }
         }
         self.find_stable_step();
         Ok(())
     }
 
-    /// Finds the next stable step. The cell that set the last one comes first: most others are then seen to allow it without a division.
+    /// Finds the next stable step.
     fn find_stable_step(&mut self) {
-        let (mut found, last) = ((f64::INFINITY, self.tightest), self.tightest);
-        let holds_last = |segment: &Segment| segment.cells.contains(&last);
-        if let Some(s) = self.segments.iter().position(holds_last) {
-            self.compare_steps(s, last..last + 1, &mut found);
-        }
-        for s in 0..self.segments.len() {
-            self.compare_steps(s, self.segments[s].cells.clone(), &mut found);
-        }
-        (self.stable_step, self.tightest) = found;
-    }
-
-    /// Compares the stable steps of some cells of a segment with the smallest one so far and the cell that has it.
-    fn compare_steps(&self, s: usize, cells: Range<usize>, (step, cell): &mut (f64, usize)) {
-        let law = &self.bodies[self.segments[s].body];
-        let ends = self.nodes[cells.start + s..=cells.end + s].windows(2);
-        for ((c, own), ends) in cells.clone().zip(&self.cells[cells]).zip(ends) {
-            let length = ends[1].position - ends[0].position;
-            let approach = ends[0].velocity - ends[1].velocity;
-            let slow = approach.abs() * *step * ROUNDING < LARGEST_SHORTENING * length;
-            if slow && law.allows(own, length, *step * ROUNDING) {
-                continue;
-            }
-            let limit = cell_limit(law, own, length, approach);
-            if limit < *step {
-                (*step, *cell) = (limit, c);
-            }
-        }
+        let motions = Motions {
+            lengths: &self.lengths,
+            approaches: &self.approaches,
+            since_load: 0.0,
+            time_step: 0.0,
+        };
+        let steps = self.segments.iter().map(|segment| {
+            let law = &self.bodies[segment.body];
+            law.stable_step_of_all(&self.cells, segment.cells.clone(), &motions)
+        });
+        self.stable_step = steps.fold(f64::INFINITY, f64::min);
     }
 
     fn inverted(&self, cell: usize) -> NumericalError {
@@ -359,10 +349,12 @@ impl<L: Law> Grid<L> {
     }
 }
 
-fn cell_limit<L: Law>(law: &L, cell: &L::Cell, length: f64, approach: f64) -> f64 {
-    let stable = law.stable_step(cell, length, approach);
-    if approach.abs() * stable > LARGEST_SHORTENING * length {
-        LARGEST_SHORTENING * length / approach.abs()
+/// The step in which a cell may shorten, by its law or by how fast it does [s].
+#[inline(always)]
+pub(in crate::fdm) fn limited(stable: f64, length: f64, approach: f64) -> f64 {
+    let most = LARGEST_SHORTENING * length;
+    if approach.abs() * stable > most {
+        most / approach.abs()
     } else {
         stable
     }

@@ -1,6 +1,6 @@
 //! Snapshot of a grid for histories and results.
 
-use super::{BoundaryCondition, Grid, Law, View};
+use super::{BoundaryCondition, Cells, Grid, Law, View};
 use crate::history::{ElementState, Profile, Sample};
 
 impl<L: Law> Grid<L> {
@@ -27,22 +27,22 @@ impl<L: Law> Grid<L> {
     pub(in crate::fdm) fn depth(&self) -> f64 {
         match (self.floor(), self.ends[1]) {
             (Some(floor), BoundaryCondition::Dashpot(_)) => {
-                let drift = self.nodes[self.nodes.len() - 1].position - self.back_position;
-                self.nodes[floor].position - drift
+                let last = self.nodes.last().unwrap_or_default();
+                self.nodes.position[floor] - (last.position - self.back_position)
             }
-            (Some(floor), _) => self.nodes[floor].position,
-            (None, _) => self.nodes[self.span(self.tip_segment()).1].position,
+            (Some(floor), _) => self.nodes.position[floor],
+            (None, _) => self.nodes.position[self.span(self.tip_segment()).1],
         }
     }
 
     pub(in crate::fdm) fn sample(&self) -> Sample {
         let tip_segment = self.tip_segment();
-        let tip = self.nodes[self.span(tip_segment).1];
-        let tail = self.nodes[0];
+        let tip = self.nodes.at(self.span(tip_segment).1);
+        let tail = self.nodes.at(0);
         let length: f64 = (0..=tip_segment)
             .map(|s| {
                 let (first, last) = self.span(s);
-                self.nodes[last].position - self.nodes[first].position
+                self.nodes.position[last] - self.nodes.position[first]
             })
             .sum();
         let (mass, momentum) = self.motion(0);
@@ -53,10 +53,10 @@ impl<L: Law> Grid<L> {
         sample.tail_velocity = tail.velocity;
         sample.interface_velocity = self
             .floor()
-            .map_or(f64::NAN, |floor| self.nodes[floor].velocity);
+            .map_or(f64::NAN, |floor| self.nodes.velocity[floor]);
         sample.back_velocity = self
             .floor()
-            .map_or(f64::NAN, |_| self.nodes[self.nodes.len() - 1].velocity);
+            .map_or(f64::NAN, |_| self.nodes.last().unwrap_or_default().velocity);
         sample.mean_velocity = momentum / mass;
         sample.tip_position = tip.position;
         sample.depth = self.depth();
@@ -70,12 +70,12 @@ impl<L: Law> Grid<L> {
 
     /// Elements along the axis, thinned out to about `most`.
     pub(in crate::fdm) fn profile(&self, most: usize) -> Profile {
-        let stride = self.cells.len().div_ceil(most).max(1);
-        let mut elements = Vec::with_capacity(self.cells.len() / stride + 1);
+        let stride = self.cells.count().div_ceil(most).max(1);
+        let mut elements = Vec::with_capacity(self.cells.count() / stride + 1);
         for (s, segment) in self.segments.iter().enumerate() {
             for c in segment.cells.clone().step_by(stride) {
-                let view = self.bodies[segment.body].view(&self.cells[c]);
-                let (back, front) = (self.nodes[c + s].position, self.nodes[c + s + 1].position);
+                let view = self.bodies[segment.body].view(&self.cells.cell(c));
+                let (back, front) = (self.nodes.position[c + s], self.nodes.position[c + s + 1]);
                 elements.push(ElementState {
                     part: segment.body,
                     initial_position: view.initial_position,
@@ -87,7 +87,7 @@ impl<L: Law> Grid<L> {
                     plastic_strain: view.plastic_strain,
                     diameter: view.diameter,
                     temperature: view.temperature,
-                    velocity: 0.5 * (self.nodes[c + s].velocity + self.nodes[c + s + 1].velocity),
+                    velocity: 0.5 * (self.nodes.velocity[c + s] + self.nodes.velocity[c + s + 1]),
                 });
             }
         }
@@ -102,9 +102,8 @@ impl<L: Law> Grid<L> {
         let own = self.segments.iter().filter(move |s| s.body == body);
         own.flat_map(move |segment| {
             let law = &self.bodies[body];
-            self.cells[segment.cells.clone()]
-                .iter()
-                .map(|cell| law.view(cell))
+            let cells = segment.cells.clone().map(|c| self.cells.cell(c));
+            cells.map(|cell| law.view(&cell))
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Grid, Law, Segment};
+use super::{Cells, Grid, Law, Segment};
 
 /// A place where a body split.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -27,8 +27,8 @@ impl<L: Law> Grid<L> {
             let law = &self.bodies[segment.body];
             if let Some(strength) = law.spall_strength() {
                 let pull = |c: usize| {
-                    let sum =
-                        law.axial_stress(&self.cells[c]) + law.axial_stress(&self.cells[c - 1]);
+                    let sum = law.axial_stress(&self.cells.cell(c))
+                        + law.axial_stress(&self.cells.cell(c - 1));
                     -0.5 * sum
                 };
                 let inner = segment.cells.start + 1..segment.cells.end;
@@ -46,7 +46,7 @@ impl<L: Law> Grid<L> {
     fn split(&mut self, s: usize, cell: usize) {
         let Segment { body, cells } = self.segments[s].clone();
         let node = cell + s;
-        let initial = |c: usize| self.bodies[body].view(&self.cells[c]).initial_position;
+        let initial = |c: usize| self.bodies[body].view(&self.cells.cell(c)).initial_position;
         let position = 0.5 * (initial(cell - 1) + initial(cell));
         self.spalls.push(Spall {
             body,
@@ -54,9 +54,9 @@ impl<L: Law> Grid<L> {
             time: self.time,
         });
         // Cells of one body are of one size, so the node's mass halves.
-        self.nodes[node].mass *= 0.5;
-        self.nodes[node].friction *= 0.5;
-        self.nodes.insert(node + 1, self.nodes[node]);
+        self.nodes.mass[node] *= 0.5;
+        self.nodes.friction[node] *= 0.5;
+        self.nodes.insert(node + 1, self.nodes.at(node));
         self.segments[s].cells = cells.start..cell;
         self.segments.insert(
             s + 1,

@@ -193,7 +193,7 @@ impl PlanarGrid {
         let mut cells = Vec::with_capacity(self.grid.cells.len());
         for (s, segment) in self.grid.segments.iter().enumerate() {
             for c in segment.cells.clone() {
-                let (a, b) = (self.grid.nodes[c + s], self.grid.nodes[c + s + 1]);
+                let (a, b) = (self.grid.nodes.at(c + s), self.grid.nodes.at(c + s + 1));
                 let cell = self.grid.cells[c];
                 cells.push(CellState {
                     layer: segment.body,
@@ -211,8 +211,8 @@ impl PlanarGrid {
 
     /// Velocity of the first and the last node [m/s].
     pub fn end_velocities(&self) -> (f64, f64) {
-        let nodes = &self.grid.nodes;
-        (nodes[0].velocity, nodes[nodes.len() - 1].velocity)
+        let last = self.grid.nodes.last().unwrap_or_default();
+        (self.grid.nodes.velocity[0], last.velocity)
     }
 
     /// Initial position [m] and time [s] of every spall plane.

@@ -293,7 +293,7 @@ impl<'a> Solver<'a> for PlanarImpact<'a> {
 
     fn probe(&mut self, _: &RunMonitor) -> Probe {
         self.interface.follow(&self.grid, self.before);
-        let last = self.grid.nodes[self.grid.nodes.len() - 1];
+        let last = self.grid.nodes.last().unwrap_or_default();
         self.back.follow(last.velocity);
         audit::probe(&self.grid, self.before)
     }

@@ -1,19 +1,18 @@
 //! Law of a rod: uniaxial stress in rate form, constant volume.
 
-use std::f64::consts::PI;
+use std::{f64::consts::PI, ops::Range};
 
-use serde::{Deserialize, Serialize};
-
+use super::{
+    blocks::{LoadBlocks, StableStep},
+    cell::{FlowConstants, RodCell, RodCells},
+};
 use crate::{
     fdm::{
-        grid::{Law, Motion, Stored, View},
+        grid::{Law, Motion, Motions, Stored, View, load_one_by_one, stable_step_one_by_one},
         viscosity,
     },
-    lanes::{LANES, Lanes, PerLane},
-    material::{
-        FlowState, LaneStrength, LaneTrial, LawVisitor, PreparedStrength, Trial, YieldPoint,
-        plastic_increments,
-    },
+    lanes::larger,
+    material::{PreparedStrength, YieldPoint},
     options::ArtificialViscosity,
 };
 
@@ -32,216 +31,50 @@ pub(super) struct RodLaw {
     pub(super) viscosity: ArtificialViscosity,
 }
 
-/// A cell: its stress, and what led to it.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-pub(super) struct RodCell {
-    initial_position: f64,
-    volume: f64,
-    rest_length: f64,
-    /// Length at the last load [m].
-    length: f64,
-    strain: f64,
-    stress: f64,
-    stress_before: f64,
-    viscous_pressure: f64,
-    /// Signed axial plastic strain, compression positive.
-    axial_plastic: f64,
-    plastic_strain: f64,
-    /// Signed plastic strain of the last load.
-    plastic_step: f64,
-    strain_rate: f64,
-    temperature: f64,
-    yield_point: YieldPoint,
-    plastic_work: f64,
-    viscous_work: f64,
-}
-
-impl RodCell {
-    /// Length without load [m].
-    pub(super) fn unloaded_length(&self) -> f64 {
-        self.rest_length * (-self.axial_plastic).exp()
-    }
-
-    pub(super) fn rest_length(&self) -> f64 {
-        self.rest_length
-    }
-
-    pub(super) fn strain(&self) -> f64 {
-        self.strain
-    }
-}
-
 impl RodLaw {
-    #[inline(always)]
-    fn flow_state(&self, cell: &RodCell) -> FlowState {
-        FlowState {
-            plastic_strain: cell.plastic_strain,
-            strain_rate: 0.0,
-            temperature: cell.temperature,
-            pressure: cell.stress / 3.0,
-        }
-    }
-
     fn diameter(&self, shortening: f64) -> f64 {
         2.0 * (self.area * shortening / PI).sqrt()
     }
 
     /// Diameter of a cell without load [m].
     pub(super) fn unloaded_diameter(&self, cell: &RodCell) -> f64 {
-        self.diameter(cell.axial_plastic.exp())
+        self.diameter(cell.plastic.axial.exp())
     }
 
-    fn flow(&self, cell: &mut RodCell, elapsed: f64) {
-        let trial = cell.stress;
-        let (start, trial_stress) = (self.flow_state(cell), self.trial(trial, elapsed));
-        let increment = cell
-            .yield_point
-            .plastic_increment(&*self.strength, &start, &trial_stress);
-        self.take(cell, trial, increment, elapsed);
-    }
-
-    /// Takes an increment of plastic strain that returns a trial stress to the yield surface.
-    #[inline(always)]
-    fn take(&self, cell: &mut RodCell, trial: f64, increment: f64, elapsed: f64) {
-        if increment == 0.0 {
-            return;
-        }
-        cell.plastic_step = increment.copysign(trial);
-        cell.stress = trial - self.modulus * cell.plastic_step;
-        cell.axial_plastic += cell.plastic_step;
-        cell.plastic_strain += increment;
-        let mean = 0.5 * (cell.stress_before + cell.stress).abs();
-        cell.temperature += self.heating * mean * increment;
-        if elapsed > 0.0 {
-            cell.strain_rate = cell.strain_rate.max(increment / elapsed);
-        }
-    }
-
-    /// Takes a new length as if nothing flowed; gives the plastic strain of the last step.
-    #[inline(always)]
-    fn stretch(&self, cell: &mut RodCell, length: f64) -> f64 {
-        let step = 2.0 * (cell.length - length) / (cell.length + length);
-        cell.length = length;
-        cell.strain += step;
-        cell.stress_before = cell.stress;
-        cell.stress += self.modulus * step;
-        std::mem::take(&mut cell.plastic_step)
-    }
-
-    /// Completes a load once what flows has flowed.
-    #[inline(always)]
-    fn settle(&self, cell: &mut RodCell, plastic_before: f64, approach: f64) {
-        cell.plastic_work +=
-            0.5 * cell.volume * cell.stress_before * (plastic_before + cell.plastic_step);
-        cell.viscous_pressure =
-            viscosity::viscous_pressure(self.viscosity, self.density, self.wave_speed, approach);
-    }
-}
-
-/// Loads cells, those that flow eight at a time.
-struct LoadTogether<'a> {
-    rod: &'a RodLaw,
-    cells: &'a mut [RodCell],
-    moving: &'a [(usize, Motion)],
-}
-
-/// A cell that flows: its number, how it moves and the plastic strain of the last step.
-#[derive(Debug, Clone, Copy)]
-struct FlowingCell {
-    cell: usize,
-    motion: Motion,
-    plastic_before: f64,
-}
-
-impl LawVisitor<f64> for LoadTogether<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn visit<L>(self, law: &L)
-    where
-        L: PerLane + Copy + Default,
-        L::One: LaneStrength,
-    {
-        let Self { rod, cells, moving } = self;
-        let (mut flowing, mut count) = ([None; LANES], 0);
-        for (i, motion) in moving {
-            let cell = &mut cells[*i];
-            let plastic_before = rod.stretch(cell, motion.length);
-            if cell.yield_point.holds(cell.stress.abs()) {
-                rod.settle(cell, plastic_before, motion.approach);
-                continue;
-            }
-            flowing[count] = Some(FlowingCell {
-                cell: *i,
-                motion: *motion,
-                plastic_before,
-            });
-            count += 1;
-            if count == LANES {
-                rod.flow_together(law, cells, &flowing);
-                (flowing, count) = ([None; LANES], 0);
-            }
-        }
-        if count > 0 {
-            rod.flow_together(law, cells, &flowing);
-        }
-    }
-}
-
-impl RodLaw {
-    /// Lets cells flow side by side, by the equations of [`RodLaw::flow`], and completes their load.
-    #[inline(always)]
-    fn flow_together<L>(
-        &self,
-        law: &L,
-        cells: &mut [RodCell],
-        flowing: &[Option<FlowingCell>; LANES],
-    ) where
-        L: PerLane + Copy + Default,
-        L::One: LaneStrength,
-    {
-        let mut points = YieldPoint::<Lanes>::default();
-        let mut trial = LaneTrial::<Lanes>::default();
-        let mut places = Lanes::all(0.0);
-        for (l, own) in flowing.iter().enumerate() {
-            // A lane without a cell repeats the first one; its result is not used.
-            let Some(FlowingCell { cell, motion, .. }) = own.as_ref().or(flowing[0].as_ref())
-            else {
-                continue;
-            };
-            let (cell, elapsed) = (&cells[*cell], motion.since_load);
-            points.set_lane(l, cell.yield_point);
-            let one = LaneTrial::new(&self.flow_state(cell), &self.trial(cell.stress, elapsed));
-            trial.set_lane(l, one);
-            places[l] = f64::from(u8::from(own.is_some()));
-        }
-        let increments = plastic_increments(law, &mut points, &trial, &places);
-        for (l, flowing) in flowing.iter().enumerate() {
-            let Some(flowing) = flowing else {
-                continue;
-            };
-            let cell = &mut cells[flowing.cell];
-            cell.yield_point = points.lane(l);
-            let motion = &flowing.motion;
-            self.take(cell, cell.stress, increments[l], motion.since_load);
-            self.settle(cell, flowing.plastic_before, motion.approach);
-        }
-    }
-
-    /// A trial stress beyond the yield surface.
-    #[inline(always)]
-    fn trial(&self, stress: f64, elapsed: f64) -> Trial {
-        Trial {
-            stress: stress.abs(),
+    pub(super) fn constants(&self, elapsed: f64) -> FlowConstants {
+        FlowConstants {
             modulus: self.modulus,
-            pressure_fall: self.modulus.copysign(stress) / 3.0,
-            elapsed: self.rate_effects.then_some(elapsed),
+            heating: self.heating,
+            elapsed,
         }
+    }
+
+    pub(super) fn elapsed(&self, constants: &FlowConstants) -> Option<f64> {
+        self.rate_effects.then_some(constants.elapsed)
+    }
+
+    pub(super) fn viscous_pressure(&self, approach: f64) -> f64 {
+        viscosity::viscous_pressure(self.viscosity, self.density, self.wave_speed, approach)
+    }
+
+    /// Stable time step without viscosity [s].
+    ///
+    /// The force grows faster than the stress as the area grows: the tangent is E + σ.
+    #[inline(always)]
+    pub(super) fn wave_time(&self, stress: f64, length: f64) -> f64 {
+        length / self.speed(stress)
+    }
+
+    #[inline(always)]
+    fn speed(&self, stress: f64) -> f64 {
+        let stiffness = 1.0 + larger(stress / self.modulus, 0.0);
+        self.wave_speed * (1.0 + 0.5 * (stiffness - 1.0))
     }
 }
 
 impl Law for RodLaw {
     type Cell = RodCell;
+    type Cells = RodCells;
     const STORED_ACROSS_STEPS: bool = true;
 
     fn cell(&self, back: f64, front: f64) -> RodCell {
@@ -250,21 +83,11 @@ impl Law for RodLaw {
             initial_position: 0.5 * (back + front),
             volume: self.area * length,
             rest_length: length,
-            length,
-            strain: 0.0,
-            stress: 0.0,
-            stress_before: 0.0,
-            viscous_pressure: 0.0,
-            axial_plastic: 0.0,
-            plastic_strain: 0.0,
-            plastic_step: 0.0,
-            strain_rate: 0.0,
-            temperature: self.start_temperature,
-            yield_point: YieldPoint::default(),
-            plastic_work: 0.0,
-            viscous_work: 0.0,
+            ..RodCell::default()
         };
-        cell.yield_point = YieldPoint::slow(&*self.strength, &self.flow_state(&cell));
+        cell.elastic.length = length;
+        cell.plastic.temperature = self.start_temperature;
+        cell.yield_point = YieldPoint::slow(&*self.strength, &cell.plastic.state(0.0));
         cell
     }
 
@@ -272,57 +95,83 @@ impl Law for RodLaw {
     ///
     /// The plastic work that belongs to a stress is that stress times half the plastic strain before it and half the one
     /// after it: with that, elastic, plastic and kinetic energy add up exactly for a constant step.
-    #[inline(always)]
     fn load(&self, cell: &mut RodCell, motion: Motion) {
-        let plastic_before = self.stretch(cell, motion.length);
-        if !cell.yield_point.holds(cell.stress.abs()) {
-            self.flow(cell, motion.since_load);
+        let constants = self.constants(motion.since_load);
+        let (elastic, plastic) = (&mut cell.elastic, &mut cell.plastic);
+        elastic.stretch(motion.length, self.modulus);
+        plastic.step_before = std::mem::take(&mut plastic.step);
+        if !cell.yield_point.holds(elastic.stress.abs()) {
+            let (start, elapsed) = (plastic.state(elastic.stress), self.elapsed(&constants));
+            let trial = elastic.trial(self.modulus, elapsed);
+            let point = &mut cell.yield_point;
+            let increment = point.plastic_increment(&*self.strength, &start, &trial);
+            if increment > 0.0 {
+                plastic.take(elastic, increment, &constants);
+            }
         }
-        self.settle(cell, plastic_before, motion.approach);
+        cell.plastic_work += plastic.work(elastic, cell.volume);
+        cell.viscous_pressure = self.viscous_pressure(motion.approach);
     }
 
-    fn load_all(&self, cells: &mut [RodCell], moving: &[(usize, Motion)]) {
+    fn load_all(
+        &self,
+        cells: &mut RodCells,
+        range: Range<usize>,
+        motions: &Motions<'_>,
+        forces: &mut [f64],
+    ) {
         match self.strength.in_lanes() {
-            Some(law) => law.visit(LoadTogether {
+            Some(law) => law.visit(LoadBlocks {
                 rod: self,
-                cells,
-                moving,
+                blocks: &mut cells.blocks,
+                range,
+                motions,
+                forces,
             }),
-            None => {
-                for (i, motion) in moving {
-                    self.load(&mut cells[*i], *motion);
-                }
-            }
+            None => load_one_by_one(self, cells, range, motions, forces),
         }
     }
 
     fn force(&self, cell: &RodCell) -> f64 {
-        (cell.stress + cell.viscous_pressure) * cell.volume / cell.length
+        (cell.elastic.stress + cell.viscous_pressure) * cell.volume / cell.elastic.length
     }
 
     fn finish(&self, cell: &mut RodCell, _: f64, shortening: f64) -> bool {
-        if cell.viscous_pressure != 0.0 {
-            let force = cell.viscous_pressure * cell.volume / cell.length;
-            cell.viscous_work += force * shortening;
-        }
+        let force = cell.viscous_pressure * cell.volume / cell.elastic.length;
+        cell.viscous_work += force * shortening;
         true
     }
 
+    fn finishes(&self) -> bool {
+        !self.viscosity.is_none()
+    }
+
     fn stable_step(&self, cell: &RodCell, length: f64, approach: f64) -> f64 {
-        // The force grows faster than the stress as the area grows: the tangent is E + σ.
-        let stiffness = 1.0 + (cell.stress / self.modulus).max(0.0);
-        let speed = self.wave_speed * (1.0 + 0.5 * (stiffness - 1.0));
+        let speed = self.speed(cell.elastic.stress);
         viscosity::stable_step(self.viscosity, length, speed, approach)
     }
 
-    fn allows(&self, cell: &RodCell, length: f64, step: f64) -> bool {
-        let stiffness = self.modulus + 0.5 * cell.stress.max(0.0);
-        self.viscosity.is_none() && length * self.modulus > step * self.wave_speed * stiffness
+    fn stable_step_of_all(
+        &self,
+        cells: &RodCells,
+        range: Range<usize>,
+        motions: &Motions<'_>,
+    ) -> f64 {
+        if !self.viscosity.is_none() {
+            return stable_step_one_by_one(self, cells, range, motions);
+        }
+        pulp::Arch::new().dispatch(StableStep {
+            rod: self,
+            blocks: &cells.blocks,
+            range,
+            motions,
+        })
     }
 
     fn stored(&self, cell: &RodCell) -> Stored {
+        let stresses = cell.elastic.stress_before * cell.elastic.stress;
         Stored {
-            elastic: cell.volume * cell.stress_before * cell.stress / (2.0 * self.modulus),
+            elastic: cell.volume * stresses / (2.0 * self.modulus),
             plastic: cell.plastic_work,
             viscous: cell.viscous_work,
         }
@@ -331,22 +180,16 @@ impl Law for RodLaw {
     fn view(&self, cell: &RodCell) -> View {
         View {
             initial_position: cell.initial_position,
-            stress: cell.stress,
-            strain: cell.strain,
-            plastic_strain: cell.plastic_strain,
-            strain_rate: cell.strain_rate,
-            temperature: cell.temperature,
-            diameter: self.diameter(cell.strain.exp()),
+            stress: cell.elastic.stress,
+            strain: cell.elastic.strain,
+            plastic_strain: cell.plastic.strain,
+            strain_rate: cell.plastic.largest_rate,
+            temperature: cell.plastic.temperature,
+            diameter: self.diameter(cell.elastic.strain.exp()),
         }
     }
 
-    fn is_settled(&self, cell: &RodCell) -> bool {
-        cell.plastic_step == 0.0
-            && cell.viscous_pressure == 0.0
-            && cell.stress == cell.stress_before
-    }
-
     fn axial_stress(&self, cell: &RodCell) -> f64 {
-        cell.stress
+        cell.elastic.stress
     }
 }

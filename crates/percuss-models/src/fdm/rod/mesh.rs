@@ -112,14 +112,14 @@ pub(super) fn build(scenario: &Scenario, options: &FdmOptions) -> Grid<RodLaw> {
         TargetBody::ConstantPressure(pressure) => tip_pressure = pressure * area,
     }
     let mut grid = Grid::new(slabs, [BoundaryCondition::Free, end]);
-    if let Some(last) = grid.nodes.last_mut() {
+    if let Some(friction) = grid.nodes.friction.last_mut() {
         if tip_pressure > 0.0 {
-            last.friction = tip_pressure;
+            *friction = tip_pressure;
             grid.tip_pressure = tip_pressure;
         }
         // The boundary's own impedance stands for everything behind it, border shear included.
         if let BoundaryCondition::Dashpot(_) = end {
-            last.friction = 0.0;
+            *friction = 0.0;
         }
     }
     grid

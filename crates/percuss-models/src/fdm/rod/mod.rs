@@ -1,5 +1,7 @@
 //! Geometry `rod`: uniaxial stress with a cross-section that changes.
 
+mod blocks;
+mod cell;
 mod law;
 mod mesh;
 mod results;

@@ -2,7 +2,7 @@
 
 use super::{mesh, run::Rod};
 use crate::{
-    fdm::{audit::REST_FRACTION, warnings::warn_of_material},
+    fdm::{audit::REST_FRACTION, grid::Cells, warnings::warn_of_material},
     options::ChainOptions,
     outcome::{Outcome, RunResult, Termination},
     scenario::TargetBody,
@@ -34,7 +34,7 @@ pub(super) fn complete(rod: &Rod<'_>, result: &mut RunResult, monitor: &RunMonit
             .segments
             .iter()
             .filter(move |s| bodies.contains(&s.body));
-        own.flat_map(|segment| &grid.cells[segment.cells.clone()])
+        own.flat_map(|segment| segment.cells.clone().map(|c| grid.cells.cell(c)))
     };
     result.permanent_depth = match scenario.target {
         TargetBody::Layers { .. } => {
@@ -47,7 +47,7 @@ pub(super) fn complete(rod: &Rod<'_>, result: &mut RunResult, monitor: &RunMonit
     };
     result.residual_velocity = Some(momentum / mass);
     result.projectile_final_length = Some(cells_of(0..1).map(|cell| cell.unloaded_length()).sum());
-    let widths = cells_of(0..1).map(|cell| grid.bodies[0].unloaded_diameter(cell));
+    let widths = cells_of(0..1).map(|cell| grid.bodies[0].unloaded_diameter(&cell));
     result.projectile_final_diameter = Some(widths.fold(0.0, f64::max));
     result.projectile_final_mass = Some(mass);
     result.warnings = warnings(rod, result);

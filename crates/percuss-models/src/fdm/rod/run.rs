@@ -8,7 +8,7 @@ use crate::{
     error::NumericalError,
     fdm::{
         audit::{self, AUDIT, REST_FRACTION},
-        grid::{BoundaryCondition, Grid},
+        grid::{BoundaryCondition, Cells, Grid},
     },
     history::{PROFILE_ELEMENTS, Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
@@ -101,7 +101,7 @@ impl Rod<'_> {
             return false;
         }
         let tip = self.grid.span(0).1;
-        let gap = self.grid.nodes[tip + 1].position - self.grid.nodes[tip].position;
+        let gap = self.grid.nodes.position[tip + 1] - self.grid.nodes.position[tip];
         let mean = |role| {
             let (mass, momentum) = self.grid.motion(role);
             if mass > 0.0 { momentum / mass } else { 0.0 }
@@ -135,7 +135,7 @@ impl<'a> Solver<'a> for Rod<'a> {
     }
 
     fn size(&self) -> usize {
-        self.grid.cells.len()
+        self.grid.cells.count()
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
