@@ -7,15 +7,20 @@
 //! A struct that is generic over [`Real`] has the numbers of one run or of eight; `per_lane!` gives it those of a lane. A function that is generic
 //! over it loops over the lanes, and is that of one run where there is one.
 
-use std::ops::{Deref, DerefMut};
+mod blocks;
 
-use serde::{Deserialize, Serialize};
+use std::{
+    fmt::Debug,
+    ops::{Deref, DerefMut},
+};
+
+pub use blocks::{Blocks, blocks_of};
 
 /// Lanes: as many numbers as the widest registers hold.
 pub const LANES: usize = 8;
 
 /// A number in every lane, which one load brings.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[repr(C, align(64))]
 pub struct Lanes(pub [f64; LANES]);
 
@@ -34,7 +39,7 @@ pub struct LaneFlags(pub [bool; LANES]);
 /// A number of one run, or one of each of eight.
 pub trait Real: PerLane<One = f64> + Copy + Default {
     /// The same for what is so or not.
-    type Flag: PerLane<One = bool> + Copy + Default;
+    type Flag: PerLane<One = bool> + Copy + Default + Debug;
 
     /// Runs that it has a number of. A loop over the lanes of one run is no loop once it is compiled.
     const LANES: usize;
@@ -199,6 +204,40 @@ macro_rules! per_lane {
             #[inline(always)]
             fn choose(&mut self, lane: usize, is_so: bool, yes: Self::One, no: Self::One) {
                 $($crate::lanes::PerLane::choose(&mut self.$field, lane, is_so, yes.$field, no.$field);)*
+            }
+        }
+    };
+}
+
+/// A struct of numbers, and a list of such, which has a list of every number: what a step does with one of them reads no others.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! number_lists {
+    (
+        $(#[$about:meta])* $visible:vis $one:ident,
+        $(#[$about_all:meta])* $all:ident { $($(#[$note:meta])* $number:ident,)* }
+    ) => {
+        $(#[$about])*
+        #[derive(Debug, Clone, Copy, Default)]
+        $visible struct $one {
+            $($(#[$note])* $visible $number: f64,)*
+        }
+
+        $(#[$about_all])*
+        #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
+        $visible struct $all {
+            $($(#[$note])* $visible $number: Vec<f64>,)*
+        }
+
+        impl $all {
+            /// A copy of one.
+            $visible fn at(&self, i: usize) -> $one {
+                $one { $($number: self.$number[i],)* }
+            }
+
+            /// Puts one in front of another one, or behind the last one.
+            $visible fn insert(&mut self, i: usize, one: $one) {
+                $(self.$number.insert(i, one.$number);)*
             }
         }
     };

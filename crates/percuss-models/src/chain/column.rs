@@ -145,7 +145,7 @@ impl<'a> Solver<'a> for Column<'a> {
         }
         // The tail is the last to hear of the impact: no need to sum up before it slows down.
         let tail = state.segments[0].first_node;
-        state.nodes[tail].velocity < 0.5 * self.scenario.impact_velocity
+        state.nodes.velocity[tail] < 0.5 * self.scenario.impact_velocity
             && state.projectile_motion().1 <= 0.0
     }
 
@@ -176,7 +176,7 @@ impl<'a> Solver<'a> for Column<'a> {
             ),
             "set or lower `chain.erosion_strain`".to_owned(),
         );
-        let length = |e: &usize| state.elements[*e].length;
+        let length = |e: &usize| state.elements.part(*e, |block| &block.length);
         error.element = state
             .segments
             .iter()

@@ -2,7 +2,7 @@
 
 use super::{
     pair::{Pair, overlap},
-    state::State,
+    state::{State, friction_between},
 };
 
 impl State {
@@ -17,8 +17,8 @@ impl State {
         let kicked = (self.pair(ends)).kick(true, holds, times, self.accumulated.kicks);
         self.accumulated.kicks = kicked.sums;
         for (end, i) in ends.into_iter().enumerate() {
-            self.nodes[i].velocity_before = kicked.start[end];
-            self.nodes[i].velocity = kicked.velocity[end];
+            self.nodes.velocity_before[i] = kicked.start[end];
+            self.nodes.velocity[i] = kicked.velocity[end];
         }
         if !kicked.closed {
             self.part_ends(s);
@@ -30,7 +30,7 @@ impl State {
     /// Holds the end that touches a wall, or lets it leave.
     fn kick_wall(&mut self, s: usize, kick: f64) {
         let [a, b] = self.ends(s);
-        let push = self.nodes[a].force;
+        let push = self.nodes.force[a];
         if push < -self.interfaces[s].bond.holds() {
             self.part_ends(s);
             self.kick_free(a, kick);
@@ -38,15 +38,15 @@ impl State {
             return;
         }
         for i in [a, b] {
-            let jump = 0.0 - self.nodes[i].velocity;
+            let jump = 0.0 - self.nodes.velocity[i];
             self.account_for_jump(i, jump, -self.time_step);
             if i == a {
-                self.accumulated.support_impulse -= self.nodes[i].mass * jump;
+                self.accumulated.support_impulse -= self.nodes.mass[i] * jump;
             }
-            self.nodes[i].velocity_before = 0.0;
-            self.nodes[i].velocity = 0.0;
+            self.nodes.velocity_before[i] = 0.0;
+            self.nodes.velocity[i] = 0.0;
         }
-        self.back_force = push + self.nodes[b].force;
+        self.back_force = push + self.nodes.force[b];
         self.accumulated.support_impulse += self.back_force * kick;
         if Some(s) == self.tip_segment() {
             self.contact_force = push;
@@ -57,8 +57,8 @@ impl State {
     fn part_ends(&mut self, s: usize) {
         let [a, b] = self.ends(s);
         let pull = self.interfaces[s].part();
-        self.nodes[a].force += pull;
-        self.nodes[b].force -= pull;
+        self.nodes.force[a] += pull;
+        self.nodes.force[b] -= pull;
     }
 
     /// The nodes on both sides of an interface.
@@ -67,13 +67,13 @@ impl State {
     }
 
     fn pair(&self, [a, b]: [usize; 2]) -> Pair {
-        let [a, b] = [&self.nodes[a], &self.nodes[b]];
+        let [a, b] = [self.nodes.at(a), self.nodes.at(b)];
         Pair {
             mass: [a.mass, b.mass],
             velocity: [a.velocity, b.velocity],
             force: [a.force, b.force],
             spring_force: [a.spring_force, b.spring_force],
-            friction: [a, b].map(|node| node.friction_between(&self.gaps)),
+            friction: [a, b].map(|node| friction_between(&self.gaps, node.position, node.friction)),
         }
     }
 
@@ -81,10 +81,10 @@ impl State {
     pub(super) fn apply_cohesive_traction(&mut self) {
         for s in 0..self.interfaces.len() {
             let (a, b) = (self.segments[s].last_node, self.segments[s + 1].first_node);
-            let gap = self.nodes[b].position - self.nodes[a].position;
+            let gap = self.nodes.position[b] - self.nodes.position[a];
             let pull = self.interfaces[s].pull_at(gap);
-            self.nodes[a].force += pull;
-            self.nodes[b].force -= pull;
+            self.nodes.force[a] += pull;
+            self.nodes.force[b] -= pull;
         }
     }
 
@@ -92,8 +92,8 @@ impl State {
     pub(super) fn account_for_fracture(&mut self, kick: f64) {
         for (s, interface) in self.interfaces.iter().enumerate() {
             if interface.pull > 0.0 {
-                let a = &self.nodes[self.segments[s].last_node];
-                let b = &self.nodes[self.segments[s + 1].first_node];
+                let a = self.nodes.at(self.segments[s].last_node);
+                let b = self.nodes.at(self.segments[s + 1].first_node);
                 let before = b.velocity_before - a.velocity_before;
                 let after = b.velocity - a.velocity;
                 self.accumulated.fracture_work += interface.pull * 0.5 * (before + after) * kick;
@@ -113,8 +113,8 @@ impl State {
                 continue;
             }
             let [a, b] = self.ends(s);
-            let gap = self.nodes[b].position - self.nodes[a].position;
-            let velocity = [self.nodes[a].velocity, self.nodes[b].velocity];
+            let gap = self.nodes.position[b] - self.nodes.position[a];
+            let velocity = [self.nodes.velocity[a], self.nodes.velocity[b]];
             if !overlap(velocity, gap, time_step) {
                 continue;
             }
@@ -134,7 +134,7 @@ impl State {
             let pulled = 0.5 * pull * (time_step * (change - faster) - gap.max(0.0));
             accumulated.fracture_work += pulled;
             accumulated.kicks.contact_loss -= pulled;
-            [self.nodes[a].velocity, self.nodes[b].velocity] = pair.velocity;
+            [self.nodes.velocity[a], self.nodes.velocity[b]] = pair.velocity;
             self.interfaces[s].closed = true;
             self.meetings += 1;
         }

@@ -1,5 +1,7 @@
 //! The way of the nodes in a step, and what it does to the elements.
 
+use std::ops::Range;
+
 use pulp::{Arch, NullaryFnOnce};
 
 use super::{
@@ -8,13 +10,16 @@ use super::{
     part::Section,
     penetration::Limit,
     solver::{StepControl, strain_limited_step},
-    state::{Element, Segment, State},
+    state::{Element, Node, Nodes, Segment, State},
 };
 use crate::{
     error::NumericalError,
-    lanes::{LANES, Lanes, PerLane},
-    material::{LaneStrength, LawVisitor},
+    lanes::{
+        LANES, LaneFlags, Lanes, PerLane, any, blocks_of, flags, lanes, larger, settled, smaller,
+    },
+    material::{LaneLaw, LaneStrength, LawVisitor},
     options::Kinematics,
+    power::log_ratio,
 };
 
 #[cfg(test)]
@@ -29,7 +34,7 @@ struct Drift<'a> {
 }
 
 impl NullaryFnOnce for Drift<'_> {
-    type Output = Result<(), NumericalError>;
+    type Output = Result<f64, NumericalError>;
 
     #[inline(always)]
     fn call(self) -> Self::Output {
@@ -42,6 +47,7 @@ struct Found {
     stable_step: f64,
     /// Largest rate at which the ends of an element approach or part, as a part of its length [1/s].
     fastest: f64,
+    largest_strain: f64,
 }
 
 impl Found {
@@ -60,26 +66,48 @@ impl Found {
             self.fastest = rate;
         }
     }
+
+    #[inline(always)]
+    fn strains(&mut self, strain: f64) {
+        if strain.abs() > self.largest_strain {
+            self.largest_strain = strain.abs();
+        }
+    }
 }
 
-/// An element that flows, or flowed in the last step.
+/// Eight numbers of a list from a place on, or those that there are, and zeros.
+#[inline(always)]
+fn eight(all: &[f64], first: usize) -> Lanes {
+    let mut numbers = [0.0; LANES];
+    match all.get(first..first + LANES) {
+        Some(eight) => numbers.copy_from_slice(eight),
+        None => {
+            let rest = &all[first.min(all.len())..];
+            numbers[..rest.len()].copy_from_slice(rest);
+        }
+    }
+    Lanes(numbers)
+}
+
+/// A block with elements that flow, or flowed in the last step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct YieldingElement {
-    /// Its place in its segment.
-    element: usize,
-    /// Plastic strain of the last step.
-    step_before: f64,
-    /// Whether it flows in this one.
-    flows: bool,
+pub(super) struct WorkingBlock {
+    block: usize,
+    /// Its elements of the segment.
+    own: LaneFlags,
+    /// 1 for those that flow in this step, 0 for others.
+    flows: Lanes,
+    /// Plastic strains of the last step.
+    steps_before: Lanes,
 }
 
 impl State {
-    /// Moves the nodes and updates every element.
+    /// Moves the nodes and updates every element; gives the largest strain of any.
     pub(super) fn drift(
         &mut self,
         control: &StepControl,
         time_step: f64,
-    ) -> Result<(), NumericalError> {
+    ) -> Result<f64, NumericalError> {
         Arch::new().dispatch(Drift {
             state: self,
             control,
@@ -88,11 +116,16 @@ impl State {
     }
 
     #[inline(always)]
-    fn drift_here(&mut self, control: &StepControl, time_step: f64) -> Result<(), NumericalError> {
+    fn drift_here(&mut self, control: &StepControl, time_step: f64) -> Result<f64, NumericalError> {
         let mut found = Found {
             stable_step: f64::INFINITY,
             fastest: 0.0,
+            largest_strain: 0.0,
         };
+        let nodes = self.nodes.position.iter_mut().zip(&self.nodes.velocity);
+        for (position, velocity) in nodes {
+            *position += velocity * time_step;
+        }
         let limit = self.penetration_limit();
         for s in 0..self.segments.len() {
             let segment = self.segments[s];
@@ -102,7 +135,7 @@ impl State {
             }
         }
         self.stable_step = found.stable_step.min(strain_limited_step(found.fastest));
-        Ok(())
+        Ok(found.largest_strain)
     }
 
     /// Fails with the number of an element that was compressed to nothing.
@@ -117,90 +150,284 @@ impl State {
     ) -> Result<(), usize> {
         let part = &self.parts[segment.part];
         let is_logarithmic = part.kinematics == Kinematics::Logarithmic;
-        let is_viscous = control.is_viscous();
-        let first_element = segment.elements().start;
-        let limit = limit.filter(|limit| segment.elements().contains(&limit.element));
-        // What flows by a law with known equations waits until it can do so side by side, in logarithmic strain.
+        let elements = segment.elements();
+        let limit = limit.filter(|limit| limit.element == elements.start);
+        // What has a law with known equations is computed side by side, in logarithmic strain.
         let law = part.strength.in_lanes();
-        let law = law.filter(|_| is_logarithmic && !is_viscous && limit.is_none());
-        let mut plastic_work = 0.0;
-        let working = &mut self.working;
-        working.clear();
-        let nodes = &mut self.nodes[segment.first_node..=segment.last_node];
-        let elements = &mut self.elements[segment.elements()];
-        let Some((first, others)) = nodes.split_first_mut() else {
-            return Ok(());
+        let law = law.filter(|_| is_logarithmic && !control.is_viscous());
+        let alone = match law {
+            Some(_) => usize::from(limit.is_some()),
+            None => elements.len(),
         };
-        first.position += first.velocity * time_step;
-        let (mut position, mut velocity) = (first.position, first.velocity);
-        for (i, (element, node)) in elements.iter_mut().zip(others).enumerate() {
-            node.position += node.velocity * time_step;
-            let distance = node.position - position;
-            let held = velocity == 0.0 && node.velocity == 0.0;
-            let closing = velocity - node.velocity;
-            (position, velocity) = (node.position, node.velocity);
-            if held && element.is_settled() {
-                // Where no wave has come, or border shear holds, nothing changes.
-                found.allow(element.stable_step(part));
-                continue;
-            }
-            if let Some(limit) = limit.filter(|limit| limit.element == first_element + i) {
-                plastic_work += element.penetrate(part, distance, time_step, limit);
-            }
-            let length = distance + element.advance;
-            if length <= 0.0 {
-                return Err(first_element + i);
-            }
-            // Only the mouth of a cone advances, and a division takes long.
-            let approach = match element.advance_step {
-                0.0 => closing,
-                advance => closing - advance / time_step,
-            };
-            if is_logarithmic {
-                found.approaches(approach_rate(approach, length));
-            }
-            let step_before = element.stretch(part, length);
-            let flows = !element.yield_point.holds(element.spring.stress.abs());
-            if law.is_some() && (flows || step_before != 0.0) {
-                working.push(YieldingElement {
-                    element: i,
-                    step_before,
-                    flows,
-                });
-                continue;
-            }
-            if flows {
-                element.flow(part, time_step);
-            }
-            plastic_work += element.volume * element.settle(part, step_before);
-            let mut limit = element.stable_step(part);
-            if is_viscous {
-                limit *= control.damp(element, part, approach);
-            }
-            found.allow(limit);
-        }
-        if let Some(law) = law.filter(|_| working.iter().any(|working| working.flows)) {
-            law.visit(FlowTogether {
-                elements: &mut *elements,
-                working: &*working,
+        let mut plastic_work = 0.0;
+        for (i, e) in elements.clone().take(alone).enumerate() {
+            let drift = ElementDrift {
+                ends: [
+                    self.nodes.at(e + segment.shift),
+                    self.nodes.at(e + segment.shift + 1),
+                ],
                 part,
                 time_step,
-            });
+                limit: limit.filter(|_| i == 0),
+            };
+            let work = (self.elements).change(e, |element| drift.alone(element, control, found));
+            plastic_work += work.ok_or(e)?;
         }
-        for working in working {
-            let element = &mut elements[working.element];
-            plastic_work += element.volume * element.settle(part, working.step_before);
-            found.allow(element.stable_step(part));
+        let mut drift = SegmentDrift {
+            blocks: self.elements.blocks_mut(),
+            nodes: &self.nodes,
+            shift: segment.shift,
+            elements: elements.start + alone..elements.end,
+            working: &mut self.working,
+            part,
+            time_step,
+        };
+        drift.bear(found)?;
+        if let Some(law) = law {
+            drift.flow(&law);
         }
+        drift.settle(&mut plastic_work, found);
         self.accumulated.plastic[part.role as usize] += plastic_work;
         Ok(())
     }
 }
 
+/// An element on its way.
+struct ElementDrift<'a> {
+    ends: [Node; 2],
+    part: &'a Section,
+    time_step: f64,
+    limit: Option<Limit>,
+}
+
+impl ElementDrift<'_> {
+    /// Brings it to where its ends are and returns its plastic work [J]; `None` when it is compressed to nothing.
+    #[inline(always)]
+    fn alone(
+        &self,
+        element: &mut Element,
+        control: &StepControl,
+        found: &mut Found,
+    ) -> Option<f64> {
+        let (part, [back, front]) = (self.part, self.ends);
+        if back.velocity == 0.0 && front.velocity == 0.0 && element.is_settled() {
+            // Where no wave has come, or border shear holds, nothing changes.
+            found.strains(element.strain);
+            found.allow(element.stable_step(part));
+            return Some(0.0);
+        }
+        let distance = front.position - back.position;
+        let mut work = 0.0;
+        if let Some(limit) = self.limit {
+            work += element.penetrate(part, distance, self.time_step, limit);
+        }
+        let length = distance + element.advance;
+        if length <= 0.0 {
+            return None;
+        }
+        let approach = back.velocity - front.velocity - element.advance_step / self.time_step;
+        if part.kinematics == Kinematics::Logarithmic {
+            found.approaches(approach_rate(approach, length));
+        }
+        work += element.volume * element.deform(part, length, self.time_step);
+        found.strains(element.strain);
+        let mut stable = element.stable_step(part);
+        if control.is_viscous() {
+            stable *= control.damp(element, part, approach);
+        }
+        found.allow(stable);
+        Some(work)
+    }
+}
+
+/// Elements of a segment on their way, eight at a time, by the equations of one.
+struct SegmentDrift<'a> {
+    blocks: &'a mut [Element<Lanes>],
+    nodes: &'a Nodes,
+    /// Number of a node less that of the element in front of it.
+    shift: usize,
+    elements: Range<usize>,
+    working: &'a mut Vec<WorkingBlock>,
+    part: &'a Section,
+    time_step: f64,
+}
+
+impl SegmentDrift<'_> {
+    /// Brings the elements to where their ends are, as if nothing flowed. Fails with the number of one that is compressed to nothing.
+    #[inline(always)]
+    fn bear(&mut self, found: &mut Found) -> Result<(), usize> {
+        self.working.clear();
+        let part = self.part;
+        let mut fastest = Lanes::all(0.0);
+        let mut largest_strain = Lanes::all(0.0);
+        let mut longest_step = Lanes::all(f64::INFINITY);
+        for (b, own) in blocks_of(self.elements.clone()) {
+            let block = &mut self.blocks[b];
+            let first = b * LANES + self.shift;
+            let from = eight(&self.nodes.velocity, first);
+            let to = eight(&self.nodes.velocity, first + 1);
+            let moves = |l: usize| (from[l] != 0.0) | (to[l] != 0.0);
+            if !any(&flags(|l| own.0[l] & (moves(l) | !is_settled(block, l)))) {
+                // Where no wave has come, or border shear holds, nothing changes.
+                let stable = stable_steps(block, part);
+                for l in 0..LANES {
+                    let stable = if own.0[l] { stable[l] } else { f64::INFINITY };
+                    longest_step[l] = smaller(stable, longest_step[l]);
+                    let strain = if own.0[l] { block.strain[l].abs() } else { 0.0 };
+                    largest_strain[l] = larger(strain, largest_strain[l]);
+                }
+                continue;
+            }
+            let back = eight(&self.nodes.position, first);
+            let front = eight(&self.nodes.position, first + 1);
+            let (before, axial) = (block.spring, block.plastic.axial);
+            let (advance, advance_step) = (block.advance, block.advance_step);
+            let (volume, elastic_to) = (block.volume, block.yield_point.elastic_to());
+            let steps_before = block.plastic.step;
+            let mut borne = Borne::<Lanes>::default();
+            for l in 0..LANES {
+                let length = front[l] - back[l] + advance[l];
+                let closing = from[l] - to[l];
+                let mut spring = before.lane(l);
+                let elastic = log_ratio(spring.unloaded_length, length);
+                spring.bear(part.modulus * elastic);
+                let stable = spring.stable_step(length, part.compliance, part.slowness);
+                let rate = approach_rate(closing - advance_step[l] / self.time_step, length);
+                let flows = own.0[l] & !(spring.stress.abs() <= elastic_to[l]);
+                let one = Borne {
+                    length,
+                    strain: axial[l] + elastic,
+                    stress: spring.stress,
+                    force: spring.force(volume[l], length),
+                    flows: if flows { 1.0 } else { 0.0 },
+                    works: if flows | (own.0[l] & (steps_before[l] != 0.0)) {
+                        1.0
+                    } else {
+                        0.0
+                    },
+                    inverted: if own.0[l] & (length <= 0.0) { 1.0 } else { 0.0 },
+                    rate: if own.0[l] { rate } else { 0.0 },
+                    stable: if own.0[l] { stable } else { f64::INFINITY },
+                };
+                borne.set_lane(l, one);
+            }
+            let borne = settled(borne);
+            if any(&borne.inverted) {
+                let inverted = (0..LANES).find(|&l| borne.inverted[l] > 0.0);
+                return Err(b * LANES + inverted.unwrap_or(0));
+            }
+            for l in 0..LANES {
+                let own = own.0[l];
+                let [length, strain] = [block.length[l], block.strain[l]];
+                block.length.choose(l, own, borne.length[l], length);
+                block.strain.choose(l, own, borne.strain[l], strain);
+                let [force, step] = [block.axial_force[l], steps_before[l]];
+                block.axial_force.choose(l, own, borne.force[l], force);
+                block.plastic.step.choose(l, own, 0.0, step);
+                let [stress, last] = [before.stress[l], before.stress_before[l]];
+                block.spring.stress.choose(l, own, borne.stress[l], stress);
+                block.spring.stress_before.choose(l, own, stress, last);
+                fastest[l] = larger(borne.rate[l], fastest[l]);
+                let strain = if own { borne.strain[l].abs() } else { 0.0 };
+                largest_strain[l] = larger(strain, largest_strain[l]);
+            }
+            if any(&borne.works) {
+                self.working.push(WorkingBlock {
+                    block: b,
+                    own,
+                    flows: borne.flows,
+                    steps_before,
+                });
+                continue;
+            }
+            for l in 0..LANES {
+                longest_step[l] = smaller(borne.stable[l], longest_step[l]);
+            }
+        }
+        for l in 0..LANES {
+            found.approaches(fastest[l]);
+            found.strains(largest_strain[l]);
+            found.allow(longest_step[l]);
+        }
+        Ok(())
+    }
+
+    /// Lets those elements flow that do.
+    #[inline(always)]
+    fn flow(&mut self, law: &LaneLaw) {
+        if self.working.iter().any(|working| any(&working.flows)) {
+            law.visit(FlowTogether {
+                blocks: &mut *self.blocks,
+                working: &*self.working,
+                part: self.part,
+                time_step: self.time_step,
+            });
+        }
+    }
+
+    /// Settles the blocks in which something flows, or flowed in the last step.
+    #[inline(always)]
+    fn settle(&mut self, plastic_work: &mut f64, found: &mut Found) {
+        for working in &*self.working {
+            let (block, own) = (&mut self.blocks[working.block], working.own);
+            let (spring, volume, length) = (block.spring, block.volume, block.length);
+            let steps = block.plastic.step;
+            let mut work = Lanes::all(0.0);
+            for l in 0..LANES {
+                let (one, before) = (spring.lane(l), block.axial_force[l]);
+                let force = one.force(volume[l], length[l]);
+                block.axial_force.choose(l, own.0[l], force, before);
+                let done = volume[l] * one.plastic_work(working.steps_before[l], steps[l]);
+                work[l] = if own.0[l] { done } else { 0.0 };
+            }
+            let stable = stable_steps(block, self.part);
+            for l in 0..LANES {
+                *plastic_work += work[l];
+                found.allow(if own.0[l] { stable[l] } else { f64::INFINITY });
+            }
+        }
+    }
+}
+
+percuss_core::per_lane! {
+    /// An element at a new length, as if nothing flowed.
+    #[derive(Debug, Clone, Copy, Default)]
+    struct Borne<R = f64> {
+        length: R,
+        strain: R,
+        stress: R,
+        force: R,
+        /// 1 where it flows, where it does or did so in the last step, and where it is compressed to nothing; 0 elsewhere.
+        flows: R,
+        works: R,
+        inverted: R,
+        /// Speed at which its ends approach or part, as a part of its length [1/s].
+        rate: R,
+        /// Stable time step [s].
+        stable: R,
+    }
+}
+
+/// [`Element::is_settled`] of an element of a block.
+#[inline(always)]
+fn is_settled(block: &Element<Lanes>, l: usize) -> bool {
+    (block.plastic.step[l] == 0.0)
+        & (block.viscous_force[l] == 0.0)
+        & (block.spring.stress[l] == block.spring.stress_before[l])
+        & (block.advance_step[l] == 0.0)
+}
+
+/// Stable time steps of the elements of a block in logarithmic strain [s].
+#[inline(always)]
+fn stable_steps(block: &Element<Lanes>, part: &Section) -> Lanes {
+    let (spring, length) = (block.spring, block.length);
+    lanes(|l| (spring.lane(l)).stable_step(length[l], part.compliance, part.slowness))
+}
+
 /// Lets those elements flow that do.
 pub(super) struct FlowTogether<'a> {
-    elements: &'a mut [Element],
-    working: &'a [YieldingElement],
+    blocks: &'a mut [Element<Lanes>],
+    working: &'a [WorkingBlock],
     part: &'a Section,
     time_step: f64,
 }
@@ -209,69 +436,32 @@ impl LawVisitor<f64> for FlowTogether<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn visit<L>(mut self, law: &L)
+    fn visit<L>(self, law: &L)
     where
         L: PerLane + Copy + Default,
         L::One: LaneStrength,
     {
-        self.flow(*law);
-    }
-}
-
-impl FlowTogether<'_> {
-    #[inline(always)]
-    fn flow<L>(&mut self, law: L)
-    where
-        L: PerLane + Copy + Default,
-        L::One: LaneStrength,
-    {
-        let working = self.working;
-        let mut waiting = working.iter().filter(|working| working.flows);
-        loop {
-            let mut places = [0; LANES];
-            let mut count = 0;
-            while count < LANES
-                && let Some(working) = waiting.next()
-            {
-                places[count] = working.element;
-                count += 1;
-            }
-            if count == 0 {
-                return;
-            }
-            let last = places[count - 1];
-            places[count..].fill(last);
-            self.flow_eight(&places, count, law);
+        let mut constants = FlowConstants::<Lanes>::default();
+        for l in 0..LANES {
+            constants.set_lane(l, FlowConstants::of(self.part));
         }
-    }
-
-    /// Lets elements flow side by side: of the places, so many count.
-    #[inline(always)]
-    fn flow_eight<L>(&mut self, places: &[usize; LANES], count: usize, law: L)
-    where
-        L: PerLane + Copy + Default,
-        L::One: LaneStrength,
-    {
-        let Self { elements, part, .. } = self;
-        let mut flowing = FlowingElements {
-            law,
-            per_time: Lanes::all(1.0 / self.time_step),
-            ..FlowingElements::default()
-        };
-        let constants = FlowConstants::of(part);
-        for (p, &place) in places.iter().enumerate() {
-            let element = &elements[place];
-            flowing.constants.set_lane(p, constants);
-            flowing.spring.set_lane(p, element.spring);
-            flowing.plastic.set_lane(p, element.plastic);
-            flowing.points.set_lane(p, element.yield_point);
-        }
-        flowing.flow(&Lanes::all(1.0));
-        for (p, &place) in places[..count].iter().enumerate() {
-            let element = &mut elements[place];
-            element.spring = flowing.spring.lane(p);
-            element.plastic = flowing.plastic.lane(p);
-            element.yield_point = flowing.points.lane(p);
+        for working in self.working {
+            if !any(&working.flows) {
+                continue;
+            }
+            let block = &mut self.blocks[working.block];
+            let mut flowing = FlowingElements {
+                spring: block.spring,
+                plastic: block.plastic,
+                points: block.yield_point,
+                constants,
+                law: *law,
+                per_time: Lanes::all(1.0 / self.time_step),
+            };
+            flowing.flow(&working.flows);
+            block.spring = flowing.spring;
+            block.plastic = flowing.plastic;
+            block.yield_point = flowing.points;
         }
     }
 }

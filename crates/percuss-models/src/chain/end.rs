@@ -223,7 +223,7 @@ fn approaches(state: &State, from: usize, horizon: f64, impact_velocity: f64) ->
         .any(|(s, _)| {
             let (behind, ahead) = (state.segments[s], state.segments[s + 1]);
             let gap =
-                state.nodes[ahead.first_node].position - state.nodes[behind.last_node].position;
+                state.nodes.position[ahead.first_node] - state.nodes.position[behind.last_node];
             // A target that is held vibrates about its place; anything else flies at its mean speed.
             let back_is_held = state.end != BoundaryCondition::Free;
             let is_held = back_is_held || state.plug_is_held();
@@ -282,9 +282,9 @@ impl State {
             && !self.plug_is_held()
             && self.segments.iter().all(|segment| {
                 self.parts[segment.part].role == Role::Projectile
-                    || self.nodes[segment.first_node..=segment.last_node]
+                    || self.nodes.friction[segment.first_node..=segment.last_node]
                         .iter()
-                        .all(|node| node.friction == 0.0)
+                        .all(|friction| *friction == 0.0)
             })
     }
 

@@ -17,12 +17,10 @@ impl State {
         while s < self.segments.len() {
             let segment = self.segments[s];
             let limit = limit * self.endurance(self.parts[segment.part].role);
-            let found = self.elements[segment.elements()]
-                .iter()
-                .position(|element| element.strain.abs() >= limit);
-            match found {
+            let strain = |e: usize| self.elements.part(e, |block| &block.strain);
+            match segment.elements().find(|&e| strain(e).abs() >= limit) {
                 // The segment at `s` is another one afterwards: look again.
-                Some(e) => self.remove_element(s, segment.elements().start + e),
+                Some(e) => self.remove_element(s, e),
                 None => s += 1,
             }
         }
@@ -42,8 +40,9 @@ impl State {
     fn remove_element(&mut self, s: usize, e: usize) {
         let segment = self.segments[s];
         let part = &self.parts[segment.part];
-        let masses = self.elements[e].end_masses;
-        let half_friction = 0.5 * part.friction_per_length * self.elements[e].rest_length;
+        let element = self.elements.get(e);
+        let masses = element.end_masses;
+        let half_friction = 0.5 * part.friction_per_length * element.rest_length;
         self.accumulated.eroded_energy += self.elastic_energy(e, part);
         let left = e + segment.shift;
         // the erosion criterion of Tate has a column: both halves are alike.
@@ -51,17 +50,17 @@ impl State {
         for (i, mass) in [left, left + 1].into_iter().zip(masses) {
             let velocity = match leaving {
                 Some((tip, velocity)) if tip == i => velocity,
-                _ => self.nodes[i].velocity,
+                _ => self.nodes.velocity[i],
             };
             self.accumulated.eroded_energy += 0.5 * mass * velocity * velocity;
             self.accumulated.eroded_momentum += mass * velocity;
-            self.nodes[i].mass -= mass;
-            self.nodes[i].friction = (self.nodes[i].friction - half_friction).max(0.0);
+            self.nodes.mass[i] -= mass;
+            self.nodes.friction[i] = (self.nodes.friction[i] - half_friction).max(0.0);
             if let Some(hold) = &mut self.hold {
-                hold.bands.erode(i, 0.5 * self.elements[e].rest_length);
+                hold.bands.erode(i, 0.5 * element.rest_length);
             }
         }
-        self.elements[e].eroded = true;
+        self.elements.change(e, |element| element.eroded = true);
         self.move_tip(s, left);
         let before = Segment {
             last_node: left,
@@ -112,7 +111,7 @@ impl State {
         if self.tip_friction > 0.0
             && let Some(tip) = self.segments.last()
         {
-            self.nodes[tip.last_node].friction = self.tip_friction;
+            self.nodes.friction[tip.last_node] = self.tip_friction;
         }
     }
 }

@@ -41,17 +41,19 @@ impl State {
             let Some(law) = &part.failure else { continue };
             // The column is held sideways: σ = k Y and σ − σ_r = Y give a mean stress of (k − 2/3) Y.
             let triaxiality = part.constraint - 2.0 / 3.0;
-            for element in &mut self.elements[segment.elements()] {
-                element.damage = law.damage(
-                    element.damage,
-                    &FailureState {
-                        tension: -element.spring.stress,
-                        triaxiality: triaxiality.copysign(-element.spring.stress),
-                        plastic_strain_increment: element.plastic.step.abs(),
-                        temperature: element.plastic.temperature,
-                    },
-                    time_step,
-                );
+            for e in segment.elements() {
+                self.elements.change(e, |element| {
+                    element.damage = law.damage(
+                        element.damage,
+                        &FailureState {
+                            tension: -element.spring.stress,
+                            triaxiality: triaxiality.copysign(-element.spring.stress),
+                            plastic_strain_increment: element.plastic.step.abs(),
+                            temperature: element.plastic.temperature,
+                        },
+                        time_step,
+                    );
+                });
             }
         }
     }
@@ -83,16 +85,17 @@ impl State {
 
     /// Mean damage of two neighbouring elements.
     fn damage_between(&self, behind: usize, ahead: usize) -> f64 {
-        0.5 * (self.elements[behind].damage + self.elements[ahead].damage)
+        let damage = |e| self.elements.part(e, |block| &block.damage);
+        0.5 * (damage(behind) + damage(ahead))
     }
 
     /// Whether the node between two elements parts: one of them has failed, and something pulls.
     fn fails(&self, behind: usize, ahead: usize) -> bool {
-        let pull = self.elements[behind].axial_force + self.elements[ahead].axial_force;
-        pull < 0.0
+        let force = |e| self.elements.part(e, |block| &block.axial_force);
+        force(behind) + force(ahead) < 0.0
             && [behind, ahead]
                 .iter()
-                .any(|&e| self.elements[e].has_failed())
+                .any(|&e| self.elements.get(e).has_failed())
     }
 
     /// The element ahead of the node of a segment that has failed most, if one has.
@@ -108,16 +111,17 @@ impl State {
 
     /// Accumulators a parting between two elements and returns the crack that opens there.
     fn part(&mut self, s: usize, behind: usize, ahead: usize) -> CohesiveLaw {
-        let after = &self.elements[ahead];
+        let after = self.elements.get(ahead);
         self.partings.push(Parting {
             position: after.initial_position - 0.5 * after.rest_length,
             time: self.time,
         });
         for e in [behind, ahead] {
-            self.elements[e].parted |= self.elements[e].has_failed();
+            let failed = |element: &mut Element| element.parted |= element.has_failed();
+            self.elements.change(e, failed);
         }
         let part = &self.parts[self.segments[s].part];
-        let (behind, ahead) = (&self.elements[behind], &self.elements[ahead]);
+        let (behind, ahead) = (self.elements.get(behind), self.elements.get(ahead));
         let strength = -0.5 * (behind.axial_force + ahead.axial_force);
         let area = behind.rest_area.min(ahead.rest_area);
         CohesiveLaw::crack(strength, part.fracture_energy * area)
@@ -129,13 +133,13 @@ impl State {
         let friction_per_length = self.parts[segment.part].friction_per_length;
         let bond = self.part(s, element - 1, element);
         let node = element + segment.shift;
-        let mut ahead = self.nodes[node];
-        ahead.mass = self.elements[element].end_masses[0];
-        let share = 0.5 * friction_per_length * self.elements[element].rest_length;
+        let mut ahead = self.nodes.at(node);
+        let first = self.elements.get(element);
+        ahead.mass = first.end_masses[0];
+        let share = 0.5 * friction_per_length * first.rest_length;
         ahead.friction = ahead.friction.min(share);
-        let behind = &mut self.nodes[node];
-        behind.mass -= ahead.mass;
-        behind.friction -= ahead.friction;
+        self.nodes.mass[node] -= ahead.mass;
+        self.nodes.friction[node] -= ahead.friction;
         self.nodes.insert(node + 1, ahead);
         if let Some(hold) = &mut self.hold {
             hold.bands.part(node);

@@ -36,14 +36,14 @@ impl State {
         let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
         for segment in piece {
             for i in segment.first_node..=segment.last_node {
-                let node = &self.nodes[i];
+                let node = self.nodes.at(i);
                 let own = node.mass - self.tip_mass_on(i);
                 mass += own;
                 momentum += own * node.velocity;
                 moment += own * node.position;
             }
             let part = &self.parts[segment.part];
-            for element in &self.elements[segment.elements()] {
+            for element in self.elements.iter(segment.elements()) {
                 length += part.length_at(element.rest_length, element.plastic.axial);
                 diameter = diameter.max(part.diameter_at(element.plastic.axial));
                 let half = 0.5 * element.rest_length;

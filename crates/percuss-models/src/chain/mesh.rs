@@ -8,9 +8,10 @@ use super::{
     interface::Interface,
     part::{Role, Section},
     solver::LARGEST_STRAIN_STEP,
-    state::{Accumulators, BoundaryCondition, Element, Node, Segment, State},
+    state::{Accumulators, BoundaryCondition, Element, Node, Nodes, Segment, State},
 };
 use crate::{
+    lanes::Blocks,
     material::{FlowState, YieldPoint},
     options::{ErosionCriterion, Kinematics, TargetResistanceModel, constraint_factor},
     problem::{LayerInterface, RearFaceCondition},
@@ -149,7 +150,7 @@ pub(super) fn build(scenario: &Scenario) -> State {
     let mut state = assemble(parts, &lengths, &interfaces, end, cone);
     if let TargetBody::ConstantPressure(pressure) = scenario.target {
         state.tip_friction = pressure * state.parts[0].area;
-        state.nodes[rod_elements].friction = state.tip_friction;
+        state.nodes.friction[rod_elements] = state.tip_friction;
     }
     if options.erosion_criterion() == ErosionCriterion::Tate {
         state.add_tip(rod.diameter);
@@ -160,12 +161,11 @@ pub(super) fn build(scenario: &Scenario) -> State {
         state.let_penetrate(&plate.material, plate.start_temperature());
     }
     state.constrain_plug(scenario);
-    for node in &mut state.nodes[..=rod_elements] {
-        node.velocity = scenario.impact_velocity;
-    }
+    state.nodes.velocity[..=rod_elements].fill(scenario.impact_velocity);
     // At the first step the elements at the interface see the whole impact velocity.
     if state.parts[0].kinematics == Kinematics::Logarithmic {
-        let lengths = state.elements.iter().map(|element| element.rest_length);
+        let lengths =
+            (0..state.elements.len()).map(|e| state.elements.part(e, |block| &block.rest_length));
         let smallest = lengths.fold(f64::INFINITY, f64::min);
         let first_step = LARGEST_STRAIN_STEP * smallest / scenario.impact_velocity;
         state.stable_step = state.stable_step.min(first_step);
@@ -221,8 +221,8 @@ fn assemble(
         hold: None,
         drag: 0.0,
         back_position: 0.0,
-        nodes: vec![Node::default(); nodes],
-        elements: vec![Element::default(); elements],
+        nodes: Nodes::default(),
+        elements: Blocks::default(),
         time: 0.0,
         step: 0,
         time_step: 0.0,
@@ -235,6 +235,9 @@ fn assemble(
         accumulated: Accumulators::default(),
         parts,
     };
+    for i in 0..nodes {
+        state.nodes.insert(i, Node::default());
+    }
     let mut first_element = 0;
     let mut start = -lengths[0];
     for (p, &length) in lengths.iter().enumerate() {
@@ -257,7 +260,7 @@ fn assemble(
         for i in 0..=count {
             // The last node stands exactly where the next part's first one does.
             let from_end = (count - i) as f64;
-            state.nodes[first_node + i].position = match &graded {
+            state.nodes.position[first_node + i] = match &graded {
                 Some(depths) => depths[i],
                 None => start + length - size * from_end,
             };
@@ -273,7 +276,7 @@ fn assemble(
         );
         for e in first_element..first_element + count {
             let node = e + p;
-            let (back, front) = (state.nodes[node].position, state.nodes[node + 1].position);
+            let (back, front) = (state.nodes.position[node], state.nodes.position[node + 1]);
             let (rest_area, volume, end_masses) = match widens {
                 Some((cone, _)) => {
                     let area = cone.area_between(back, front);
@@ -292,11 +295,11 @@ fn assemble(
                 ),
             };
             let half_friction = 0.5 * part.friction_per_length * size;
-            for (node, mass) in state.nodes[node..=node + 1].iter_mut().zip(end_masses) {
-                node.mass += mass;
-                node.friction += half_friction;
+            for (node, mass) in [node, node + 1].into_iter().zip(end_masses) {
+                state.nodes.mass[node] += mass;
+                state.nodes.friction[node] += half_friction;
             }
-            state.elements[e] = Element {
+            state.elements.push(Element {
                 rest_length: front - back,
                 rest_area,
                 volume,
@@ -313,16 +316,16 @@ fn assemble(
                 initial_position: 0.5 * (front + back),
                 yield_point,
                 ..Element::default()
-            };
+            });
             state.stable_step = state.stable_step.min((front - back) / part.wave_speed);
         }
         first_element += count;
         start += length;
     }
-    state.back_position = state.nodes[nodes - 1].position;
+    state.back_position = state.nodes.position[nodes - 1];
     // The boundary's own impedance stands for everything behind it, border shear included.
-    if let (BoundaryCondition::Open { .. }, Some(last)) = (end, state.nodes.last_mut()) {
-        last.friction = 0.0;
+    if let (BoundaryCondition::Open { .. }, Some(last)) = (end, state.nodes.friction.last_mut()) {
+        *last = 0.0;
     }
     state
 }

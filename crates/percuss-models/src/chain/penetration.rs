@@ -85,12 +85,13 @@ impl State {
         let Some(last) = segment.elements().next_back() else {
             return 0.0;
         };
-        let last = &self.elements[last];
+        let last = self.elements.get(last);
         let beyond = last.area(part) - penetration.area;
         let spread = beyond.max(0.0) * last.spring.stress.clamp(0.0, penetration.resistance);
-        let closing = self.nodes[0].velocity - self.nodes[segment.last_node].velocity;
+        let closing = self.nodes.velocity[0] - self.nodes.velocity[segment.last_node];
         let on_axis = 0.5 * part.density * penetration.area * closing.max(0.0).powi(2);
-        if self.elements[..part.elements].iter().any(|e| e.eroded) {
+        let eroded = |e| self.elements.part(e, |block| &block.eroded);
+        if (0..part.elements).any(eroded) {
             spread
         } else {
             (spread - on_axis).max(0.0)
@@ -107,7 +108,7 @@ impl State {
             return;
         };
         let mouth = self.segments[face];
-        let advance = self.elements[mouth.elements().start].advance_step;
+        let advance = self.elements.get(mouth.elements().start).advance_step;
         if advance <= 0.0 {
             return;
         }
@@ -116,19 +117,19 @@ impl State {
         if penetration.missing_mass > 0.0 {
             let mass = met.min(penetration.missing_mass);
             penetration.missing_mass -= mass;
-            let node = self.nodes[i];
+            let node = self.nodes.at(i);
             // It is taken up at rest, as by a plastic impact.
             let jump = -node.velocity * mass / (node.mass + mass);
             self.account_for_jump(i, jump, -self.time_step);
             let after = node.velocity + jump;
             self.accumulated.kicks.contact_loss -= 0.5 * mass * after * after;
-            self.nodes[i].mass += mass;
-            self.nodes[i].velocity = after;
-            self.nodes[i].velocity_before = after;
+            self.nodes.mass[i] += mass;
+            self.nodes.velocity[i] = after;
+            self.nodes.velocity_before[i] = after;
             self.penetration = Some(penetration);
         } else {
             self.drag = 0.5 * met * advance / (self.time_step * self.time_step);
-            self.nodes[i].force -= self.drag;
+            self.nodes.force[i] -= self.drag;
         }
     }
 
@@ -137,7 +138,7 @@ impl State {
         let Some(face) = self.face_segment().filter(|_| self.drag > 0.0) else {
             return;
         };
-        let node = &self.nodes[self.segments[face].first_node];
+        let node = self.nodes.at(self.segments[face].first_node);
         let impulse = self.drag * kick;
         self.accumulated.eroded_momentum += impulse;
         self.accumulated.eroded_energy += impulse * 0.5 * (node.velocity_before + node.velocity);
@@ -149,9 +150,13 @@ impl State {
         let Some(tip) = self.tip_segment().map(|tip| self.segments[tip]) else {
             return false;
         };
-        let tail = self.nodes[self.segments[0].first_node].velocity.max(0.0);
+        let tail = self.nodes.velocity[self.segments[0].first_node].max(0.0);
         let inertia = 0.5 * self.parts[tip.part].density * tail * tail;
-        let strength = self.elements[tip.elements().end - 1].yield_point.stress();
+        let strength = self
+            .elements
+            .get(tip.elements().end - 1)
+            .yield_point
+            .stress();
         inertia + strength > penetration.resistance
     }
 }

@@ -84,9 +84,9 @@ impl State {
                 continue;
             }
             for i in segment.first_node..=segment.last_node {
-                self.nodes[i].friction = 0.0;
-                let position = self.nodes[i].position;
-                let middle = |j: usize| 0.5 * (position + self.nodes[j].position);
+                self.nodes.friction[i] = 0.0;
+                let position = self.nodes.position[i];
+                let middle = |j: usize| 0.5 * (position + self.nodes.position[j]);
                 let from = if i > segment.first_node {
                     middle(i - 1)
                 } else {
@@ -153,9 +153,9 @@ impl State {
         let (mut mass, mut momentum) = (0.0, 0.0);
         for segment in &self.segments {
             if self.parts[segment.part].role == Role::Target {
-                for node in &self.nodes[segment.first_node..=segment.last_node] {
-                    mass += node.mass;
-                    momentum += node.mass * node.velocity;
+                for i in segment.first_node..=segment.last_node {
+                    mass += self.nodes.mass[i];
+                    momentum += self.nodes.mass[i] * self.nodes.velocity[i];
                 }
             }
         }

@@ -114,10 +114,11 @@ impl Results<'_> {
     fn reached(&self) -> Vec<Reached> {
         let mut first = 0;
         let parts = self.state.parts.iter().map(|part| {
-            let elements = &self.state.elements[first..first + part.elements];
+            let own = first..first + part.elements;
             first += part.elements;
-            let most = |value: fn(&super::state::Element) -> f64| {
-                elements.iter().map(value).fold(0.0, f64::max)
+            let most = |value: fn(super::state::Element) -> f64| {
+                let elements = self.state.elements.iter(own.clone());
+                elements.map(value).fold(0.0, f64::max)
             };
             Reached {
                 plastic_strain: most(|element| element.plastic.strain),
@@ -132,7 +133,7 @@ impl Results<'_> {
         let mut remains = Remains::default();
         let mut first = 0;
         for part in &self.state.parts {
-            for element in &self.state.elements[first..first + part.elements] {
+            for element in self.state.elements.iter(first..first + part.elements) {
                 let rest = element.rest_length;
                 let unloaded = part.length_at(rest, element.plastic.axial);
                 let eroded = usize::from(element.eroded);

@@ -76,7 +76,7 @@ fn border_shear_does_not_act_in_a_gap() {
         let mut plug = state.segments.iter().filter(|segment| segment.part == 1);
         let first = plug.clone().next().unwrap();
         let last = plug.next_back().unwrap();
-        [first.first_node, last.last_node].map(|node| state.nodes[node].position)
+        [first.first_node, last.last_node].map(|node| state.nodes.position[node])
     };
     let mut taken = |depth: f64| {
         while ends(&state)[0] < depth {
@@ -114,7 +114,7 @@ fn the_width_of_a_gap_matters_little() {
 /// How often ends had met, bodies had separated and elements had eroded when a time was over; the balances are checked in every step.
 fn run(scenario: &Scenario, control: &StepControl, until: f64) -> (State, usize) {
     let mut state = mesh::build(scenario);
-    let mass: f64 = state.nodes.iter().map(|node| node.mass).sum();
+    let mass: f64 = state.nodes.mass.iter().sum();
     while state.time < until {
         state.advance(control).unwrap();
         let (energy, momentum) = (state.energy(), state.momentum());
@@ -141,20 +141,14 @@ fn run(scenario: &Scenario, control: &StepControl, until: f64) -> (State, usize)
             );
         }
     }
-    let eroded = state
-        .elements
-        .iter()
-        .filter(|element| element.eroded)
-        .count();
+    let elements = || state.elements.iter(0..state.elements.len());
+    let eroded = elements().filter(|element| element.eroded).count();
     let left: f64 = state
         .segments
         .iter()
-        .flat_map(|s| &state.nodes[s.first_node..=s.last_node])
-        .map(|node| node.mass)
+        .flat_map(|s| &state.nodes.mass[s.first_node..=s.last_node])
         .sum();
-    let gone: f64 = state
-        .elements
-        .iter()
+    let gone: f64 = elements()
         .filter(|element| element.eroded)
         .map(|element| element.end_masses[0] + element.end_masses[1])
         .sum();

@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
 
-use super::{band::Band, band_law::BandLaw, state::Node};
+use super::{band::Band, band_law::BandLaw, state::Nodes};
 use crate::{Error, solver::archive::Archive};
 
 /// Extremes and sums of all bands, for results.
@@ -70,32 +70,32 @@ impl Bands {
     }
 
     /// Pulls on the nodes; returns the force on the plate around them [N].
-    pub(super) fn pull(&self, nodes: &mut [Node]) -> f64 {
+    pub(super) fn pull(&self, nodes: &mut Nodes) -> f64 {
         let mut total = 0.0;
         for band in &self.bands {
             let force = band.stress * band.held * self.perimeter;
-            nodes[band.node].force -= force;
-            nodes[band.node].spring_force -= force;
+            nodes.force[band.node] -= force;
+            nodes.spring_force[band.node] -= force;
             total += force;
         }
         total
     }
 
     /// Updates every band after a drift to a time, the plate around it being displaced by `deflection`.
-    pub(super) fn update(&mut self, nodes: &[Node], deflection: f64, time_step: f64, time: f64) {
+    pub(super) fn update(&mut self, nodes: &Nodes, deflection: f64, time_step: f64, time: f64) {
         for band in &mut self.bands {
             if band.held == 0.0 {
                 continue;
             }
             let law = &self.laws[band.law];
-            let node = &nodes[band.node];
-            let slip = node.position - band.rest_position - deflection;
+            let position = nodes.position[band.node];
+            let slip = position - band.rest_position - deflection;
             let work = band.deform(law, slip, time_step);
             self.accumulated.work += self.perimeter * band.held * work;
             let accumulated = &mut self.accumulated;
             accumulated.largest_temperature = accumulated.largest_temperature.max(band.temperature);
             accumulated.largest_slip = accumulated.largest_slip.max(slip.abs());
-            let middle = node.position + band.offset - deflection;
+            let middle = position + band.offset - deflection;
             let inside = (self.back - middle + 0.5 * band.length).clamp(0.0, band.length);
             let held = match band.has_failed(law) {
                 true => 0.0,
@@ -154,11 +154,11 @@ impl Bands {
     }
 
     /// Square of a frequency that no motion of nodes and plate against each other by the bands exceeds [1/s2].
-    pub(super) fn largest_frequency_squared(&self, nodes: &[Node], plate_mass: f64) -> f64 {
+    pub(super) fn largest_frequency_squared(&self, nodes: &Nodes, plate_mass: f64) -> f64 {
         let (mut of_a_node, mut total) = (0.0_f64, 0.0);
         for band in self.bands.iter().filter(|band| band.held > 0.0) {
             let stiffness = band.stiffness * band.held * self.perimeter;
-            of_a_node = of_a_node.max(stiffness / nodes[band.node].mass);
+            of_a_node = of_a_node.max(stiffness / nodes.mass[band.node]);
             total += stiffness;
         }
         of_a_node + total / plate_mass

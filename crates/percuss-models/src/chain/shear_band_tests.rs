@@ -1,7 +1,7 @@
 //! Single shear band at a prescribed velocity.
 
 use super::{
-    super::{adiabatic::Sheared, band_law::Failure, shear_zone::SQRT_3},
+    super::{adiabatic::Sheared, band_law::Failure, shear_zone::SQRT_3, state::Node},
     *,
 };
 use crate::{Refusal, case, scenario::TargetBody};
@@ -34,21 +34,23 @@ fn law(chain: &str) -> Result<BandLaw, Refusal> {
 fn slide(law: BandLaw, back: f64) -> (Bands, f64, Vec<[f64; 2]>) {
     let mut bands = Bands::new(vec![law], PERIMETER, back);
     bands.hold(0, 0.0, [0.0, LENGTH], 0);
-    let mut nodes = vec![Node {
+    let mut nodes = Nodes::default();
+    let node = Node {
         mass: 1.0,
         velocity: SPEED,
         ..Node::default()
-    }];
+    };
+    nodes.insert(0, node);
     let step = 2e-9;
     let (mut work, mut time, mut curve) = (0.0, 0.0, Vec::new());
     while bands.hold_any() && time < 1e-3 {
-        nodes[0].force = 0.0;
+        nodes.force[0] = 0.0;
         let force = bands.pull(&mut nodes);
-        assert_eq!(nodes[0].force, -force);
+        assert_eq!(nodes.force[0], -force);
         work += force * SPEED * step;
         let stress = bands.bands[0].stress;
-        curve.push([nodes[0].position, stress]);
-        nodes[0].position += SPEED * step;
+        curve.push([nodes.position[0], stress]);
+        nodes.position[0] += SPEED * step;
         time += step;
         bands.update(&nodes, 0.0, step, time);
     }
@@ -155,9 +157,12 @@ fn a_band_is_shared_where_the_plug_parts() {
     bands.hold(4, 0.001, [0.0005, 0.002], 0);
     bands.hold(5, 0.004, [0.002, 0.004], 0);
     // The whole plug has slid by 2.4 mm: 0.4 mm of what belongs to the node in the middle has left the plate.
-    let mut nodes = vec![Node::default(); 6];
-    for (node, rest) in nodes[3..].iter_mut().zip([0.0, 0.001, 0.004]) {
-        node.position = rest + 0.0024;
+    let mut nodes = Nodes::default();
+    for i in 0..6 {
+        nodes.insert(i, Node::default());
+    }
+    for (position, rest) in nodes.position[3..].iter_mut().zip([0.0, 0.001, 0.004]) {
+        *position = rest + 0.0024;
     }
     // Energy is that between two steps.
     bands.update(&nodes, 0.0, 1e-6, 1e-6);
@@ -165,7 +170,7 @@ fn a_band_is_shared_where_the_plug_parts() {
     let (energy, work) = (bands.elastic_energy(), bands.accumulated.work);
     let force = bands.pull(&mut nodes);
     bands.part(4);
-    nodes.insert(5, nodes[4]);
+    nodes.insert(5, nodes.at(4));
 
     let keys: Vec<usize> = bands.bands.iter().map(|band| band.node).collect();
     assert_eq!(keys, [3, 4, 5, 6]);

@@ -14,22 +14,22 @@ impl State {
         };
         let tail = projectile()
             .next()
-            .map(|segment| self.nodes[segment.first_node]);
+            .map(|segment| self.nodes.at(segment.first_node));
         let tip = projectile()
             .next_back()
-            .map(|segment| self.nodes[segment.last_node]);
+            .map(|segment| self.nodes.at(segment.last_node));
         let face = self
             .face_segment()
-            .map(|face| self.nodes[self.segments[face].first_node]);
+            .map(|face| self.nodes.at(self.segments[face].first_node));
         let back = self
             .segments
             .last()
             .filter(|segment| self.parts[segment.part].role == Role::Target)
-            .map(|segment| self.nodes[segment.last_node]);
+            .map(|segment| self.nodes.at(segment.last_node));
         let (mass, momentum) = self.projectile_motion();
         let length: f64 = projectile()
             .map(|segment| {
-                self.nodes[segment.last_node].position - self.nodes[segment.first_node].position
+                self.nodes.position[segment.last_node] - self.nodes.position[segment.first_node]
             })
             .sum();
         // What is gone has no place and no speed.
@@ -61,20 +61,20 @@ impl State {
         for segment in &self.segments {
             let part = &self.parts[segment.part];
             for e in segment.elements().step_by(stride) {
-                let node = e + segment.shift;
-                let position = 0.5 * (self.nodes[node].position + self.nodes[node + 1].position);
+                let (element, node) = (self.elements.get(e), e + segment.shift);
+                let position = 0.5 * (self.nodes.position[node] + self.nodes.position[node + 1]);
                 elements.push(ElementState {
                     part: segment.part,
-                    initial_position: self.elements[e].initial_position,
+                    initial_position: element.initial_position,
                     position,
-                    displacement: position - self.elements[e].initial_position,
-                    length: self.elements[e].length,
-                    stress: self.elements[e].spring.stress,
-                    strain: self.elements[e].strain,
-                    plastic_strain: self.elements[e].plastic.strain,
-                    diameter: 2.0 * (self.elements[e].area(part) / PI).sqrt(),
-                    temperature: self.elements[e].plastic.temperature,
-                    velocity: 0.5 * (self.nodes[node].velocity + self.nodes[node + 1].velocity),
+                    displacement: position - element.initial_position,
+                    length: element.length,
+                    stress: element.spring.stress,
+                    strain: element.strain,
+                    plastic_strain: element.plastic.strain,
+                    diameter: 2.0 * (element.area(part) / PI).sqrt(),
+                    temperature: element.plastic.temperature,
+                    velocity: 0.5 * (self.nodes.velocity[node] + self.nodes.velocity[node + 1]),
                 });
             }
         }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::{
     friction::{FrictionSums, KickedMasses},
     part::Section,
-    state::{BoundaryCondition, Element, Node, Segment, State},
+    state::{BoundaryCondition, Element, Segment, State, friction_between},
 };
 use crate::{
     error::NumericalError,
@@ -102,29 +102,24 @@ fn damped_limit(ratio: f64) -> f64 {
     (1.0 + ratio * ratio).sqrt() - ratio
 }
 
-impl Node {
-    /// Starts a step with the force of the elements, viscosity included, and without it.
-    fn begin(&mut self, force: f64, spring_force: f64) {
-        self.force = force;
-        self.spring_force = spring_force;
-        self.velocity_before = self.velocity;
-    }
-
-    /// Kicks the node for a time over its mass against friction.
-    #[inline(always)]
-    fn kick(&mut self, ratio: f64, friction: f64, sums: &mut FrictionSums) {
-        let velocity = self.velocity;
-        if friction > 0.0 {
-            let kicked = KickedMasses {
-                mass: self.mass,
-                ratio,
-                limit: friction * ratio,
-            };
-            let after = sums.kick(&kicked, velocity, velocity != 0.0, self.force);
-            self.velocity = after.unwrap_or(velocity);
-        } else {
-            self.velocity = velocity + self.force * ratio;
-        }
+/// Velocity of a mass after a kick by a force for a time over the mass, against friction.
+#[inline(always)]
+fn kick_mass(
+    [mass, ratio]: [f64; 2],
+    velocity: f64,
+    [force, friction]: [f64; 2],
+    sums: &mut FrictionSums,
+) -> f64 {
+    if friction > 0.0 {
+        let kicked = KickedMasses {
+            mass,
+            ratio,
+            limit: friction * ratio,
+        };
+        let after = sums.kick(&kicked, velocity, velocity != 0.0, force);
+        after.unwrap_or(velocity)
+    } else {
+        velocity + force * ratio
     }
 }
 
@@ -146,12 +141,14 @@ impl State {
             self.account_for_local_damping(kick);
         }
         self.close_contacts(kick, time_step);
-        self.drift(control, time_step)?;
+        let largest_strain = self.drift(control, time_step)?;
         self.drift_plate(time_step);
         self.time += time_step;
         self.time_step = time_step;
         self.step += 1;
-        self.erode(control.erosion_strain);
+        if largest_strain >= control.erosion_strain {
+            self.erode(control.erosion_strain);
+        }
         if control.fails {
             self.damage(time_step);
             self.split_failed_interfaces();
@@ -160,18 +157,22 @@ impl State {
     }
 
     fn collect_forces(&mut self) {
+        let velocities = &self.nodes.velocity;
+        self.nodes.velocity_before.copy_from_slice(velocities);
         for segment in &self.segments {
-            let nodes = &mut self.nodes[segment.first_node..=segment.last_node];
-            let elements = &self.elements[segment.elements()];
+            let nodes = segment.first_node..=segment.last_node;
+            let forces = self.nodes.force[nodes.clone()].iter_mut();
+            let mut forces = forces.zip(&mut self.nodes.spring_force[nodes]);
             let (mut behind, mut spring_behind) = (0.0, 0.0);
-            let (inner, last) = nodes.split_at_mut(elements.len());
-            for (node, element) in inner.iter_mut().zip(elements) {
-                let force = element.axial_force + element.viscous_force;
-                node.begin(behind - force, spring_behind - element.axial_force);
-                (behind, spring_behind) = (force, element.axial_force);
+            // The elements first: they end before the nodes do.
+            for (e, (force, spring_force)) in segment.elements().zip(&mut forces) {
+                let axial = self.elements.part(e, |block| &block.axial_force);
+                let all = axial + self.elements.part(e, |block| &block.viscous_force);
+                (*force, *spring_force) = (behind - all, spring_behind - axial);
+                (behind, spring_behind) = (all, axial);
             }
-            for node in last {
-                node.begin(behind, spring_behind);
+            for (force, spring_force) in forces {
+                (*force, *spring_force) = (behind, spring_behind);
             }
         }
     }
@@ -215,9 +216,10 @@ impl State {
         for segment in &self.segments {
             for e in segment.elements() {
                 let (a, b) = (e + segment.shift, e + segment.shift + 1);
-                let before = self.nodes[a].velocity_before - self.nodes[b].velocity_before;
-                let after = self.nodes[a].velocity - self.nodes[b].velocity;
-                work += self.elements[e].viscous_force * 0.5 * (before + after) * kick;
+                let before = self.nodes.velocity_before[a] - self.nodes.velocity_before[b];
+                let after = self.nodes.velocity[a] - self.nodes.velocity[b];
+                let force = self.elements.part(e, |block| &block.viscous_force);
+                work += force * 0.5 * (before + after) * kick;
             }
         }
         self.accumulated.viscous_work += work;
@@ -232,23 +234,34 @@ impl State {
             return;
         }
         let mut sums = self.accumulated.kicks.friction;
-        let (mut mass, mut ratio) = (f64::NAN, f64::NAN);
-        for node in &mut self.nodes[nodes] {
+        let (mut last_mass, mut ratio) = (f64::NAN, f64::NAN);
+        let masses = self.nodes.mass[nodes.clone()].iter();
+        let forces = self.nodes.force[nodes.clone()].iter();
+        let positions = self.nodes.position[nodes.clone()].iter();
+        let frictions = self.nodes.friction[nodes.clone()].iter();
+        let around = positions.zip(frictions);
+        let nodes = self.nodes.velocity[nodes].iter_mut();
+        for ((velocity, (&mass, &force)), (&position, &friction)) in
+            nodes.zip(masses.zip(forces)).zip(around)
+        {
             // Neighbours mostly have one mass, and a division takes long.
-            if node.mass != mass {
-                mass = node.mass;
+            if mass != last_mass {
+                last_mass = mass;
                 ratio = kick / mass;
             }
-            node.kick(ratio, node.friction_between(&self.gaps), &mut sums);
+            let friction = friction_between(&self.gaps, position, friction);
+            *velocity = kick_mass([mass, ratio], *velocity, [force, friction], &mut sums);
         }
         self.accumulated.kicks.friction = sums;
     }
 
     pub(super) fn kick_free(&mut self, i: usize, kick: f64) {
-        let node = &mut self.nodes[i];
+        let node = self.nodes.at(i);
         let mut of_node = FrictionSums::default();
-        let friction = node.friction_between(&self.gaps);
-        node.kick(kick / node.mass, friction, &mut of_node);
+        let friction = friction_between(&self.gaps, node.position, node.friction);
+        let masses = [node.mass, kick / node.mass];
+        let forces = [node.force, friction];
+        self.nodes.velocity[i] = kick_mass(masses, node.velocity, forces, &mut of_node);
         let sums = &mut self.accumulated.kicks.friction;
         sums.impulse += of_node.impulse;
         sums.work += of_node.work;
@@ -259,12 +272,13 @@ impl State {
     }
 
     pub(super) fn kick_boundary(&mut self, i: usize, kick: f64) {
-        let node = &mut self.nodes[i];
+        let node = self.nodes.at(i);
+        let velocity = &mut self.nodes.velocity[i];
         let sums = &mut self.accumulated;
         match self.end {
             BoundaryCondition::Free => self.kick_free(i, kick),
             BoundaryCondition::Fixed => {
-                node.velocity = 0.0;
+                *velocity = 0.0;
                 self.back_force = node.force;
                 sums.support_impulse += node.force * kick;
             }
@@ -275,7 +289,7 @@ impl State {
                 let spring = stiffness * (node.position - self.back_position);
                 let end = OpenEnd { impedance, spring };
                 let [after, mean, force] = end.kick(node.mass, node.velocity, node.force, kick);
-                node.velocity = after;
+                *velocity = after;
                 self.back_force = force;
                 sums.support_impulse += force * kick;
                 sums.boundary_work += force * mean * kick;

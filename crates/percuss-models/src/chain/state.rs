@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     dishing::Dishing,
-    drift::YieldingElement,
+    drift::WorkingBlock,
     element::{Plastic, Spring},
     interface::Interface,
     pair::KickSums,
@@ -20,7 +20,7 @@ use super::{
 };
 use crate::{
     Error,
-    lanes::{PerLane, Real},
+    lanes::{Blocks, Lanes, PerLane, Real},
     ledger::{EnergyLedger, MomentumLedger},
     material::YieldPoint,
     solver::archive::Archive,
@@ -57,65 +57,77 @@ impl Segment {
     }
 }
 
-/// A point mass.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(super) struct Node {
-    pub(super) position: f64,
-    pub(super) velocity: f64,
-    /// Velocity at the start of the current kick.
-    pub(super) velocity_before: f64,
-    pub(super) mass: f64,
-    /// Force of the elements, viscosity included [N].
-    pub(super) force: f64,
-    /// Force of the elements without viscosity [N].
-    pub(super) spring_force: f64,
-    /// Force of local damping in this step, part of `force` [N].
-    pub(super) damping: f64,
-    /// Largest friction force [N], where it is not in a gap.
-    pub(super) friction: f64,
-}
-
-impl Node {
-    /// Largest friction force on it [N]: none in a gap, where nothing is around it.
-    #[inline(always)]
-    pub(super) fn friction_between(&self, gaps: &[[f64; 2]]) -> f64 {
-        let is_inside = |[from, to]: &[f64; 2]| *from < self.position && self.position < *to;
-        if gaps.iter().any(is_inside) {
-            0.0
-        } else {
-            self.friction
-        }
+percuss_core::number_lists! {
+    /// A point mass.
+    pub(in crate::chain) Node,
+    /// All of them, from the projectile's tail to the target's back.
+    Nodes {
+        /// [m].
+        position,
+        /// [m/s].
+        velocity,
+        /// Velocity at the start of the current kick [m/s].
+        velocity_before,
+        /// [kg].
+        mass,
+        /// Force of the elements, viscosity included [N].
+        force,
+        /// Force of the elements without viscosity [N].
+        spring_force,
+        /// Force of local damping in this step, part of `force` [N].
+        damping,
+        /// Largest friction force [N], where it is not in a gap.
+        friction,
     }
 }
 
-/// A normal spring with its constitutive state.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(super) struct Element {
-    pub(super) rest_length: f64,
-    /// Area at rest [m2].
-    pub(super) rest_area: f64,
-    /// [m3]; plastic flow does not change it.
-    pub(super) volume: f64,
-    pub(super) spring: Spring,
-    /// [N].
-    pub(super) axial_force: f64,
-    pub(super) plastic: Plastic,
-    /// What it gives to the masses of its two nodes [kg].
-    pub(super) end_masses: [f64; 2],
-    pub(super) length: f64,
-    pub(super) strain: f64,
-    pub(super) viscous_force: f64,
-    pub(super) yield_point: YieldPoint,
-    /// Initial position of its middle.
-    pub(super) initial_position: f64,
-    pub(super) eroded: bool,
-    /// Damage by the failure law; 1 is failed.
-    pub(super) damage: f64,
-    /// Whether its failure has parted it from a neighbour.
-    pub(super) parted: bool,
-    /// Length of target that the tip has penetrated [m], and its part in the last step.
-    pub(super) advance: f64,
-    pub(super) advance_step: f64,
+impl Nodes {
+    pub(super) fn len(&self) -> usize {
+        self.position.len()
+    }
+}
+
+/// Largest friction force on a node at a position [N]: none in a gap, where nothing is around it.
+#[inline(always)]
+pub(super) fn friction_between(gaps: &[[f64; 2]], position: f64, friction: f64) -> f64 {
+    let is_inside = |[from, to]: &[f64; 2]| *from < position && position < *to;
+    if gaps.iter().any(is_inside) {
+        0.0
+    } else {
+        friction
+    }
+}
+
+percuss_core::per_lane! {
+    /// A normal spring with its constitutive state.
+    #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+    pub(super) struct Element<R: Real = f64> {
+        pub(super) rest_length: R,
+        /// Area at rest [m2].
+        pub(super) rest_area: R,
+        /// [m3]; plastic flow does not change it.
+        pub(super) volume: R,
+        pub(super) spring: Spring<R>,
+        /// [N].
+        pub(super) axial_force: R,
+        pub(super) plastic: Plastic<R>,
+        /// What it gives to the masses of its two nodes [kg].
+        pub(super) end_masses: [R; 2],
+        pub(super) length: R,
+        pub(super) strain: R,
+        pub(super) viscous_force: R,
+        pub(super) yield_point: YieldPoint<R>,
+        /// Initial position of its middle.
+        pub(super) initial_position: R,
+        pub(super) eroded: R::Flag,
+        /// Damage by the failure law; 1 is failed.
+        pub(super) damage: R,
+        /// Whether its failure has parted it from a neighbour.
+        pub(super) parted: R::Flag,
+        /// Length of target that the tip has penetrated [m], and its part in the last step.
+        pub(super) advance: R,
+        pub(super) advance_step: R,
+    }
 }
 
 /// A place where a body or a bonded interface has parted.
@@ -204,12 +216,12 @@ pub(super) struct State {
     /// Depths between which there is nothing around the target before the impact [m].
     pub(super) gaps: Vec<[f64; 2]>,
 
-    pub(super) nodes: Vec<Node>,
+    pub(super) nodes: Nodes,
     /// All elements, eroded ones too.
-    pub(super) elements: Vec<Element>,
+    pub(super) elements: Blocks<Element<Lanes>>,
 
-    /// Elements that flow in a step or flowed in the one before: kept for its memory.
-    pub(super) working: Vec<YieldingElement>,
+    /// Blocks with elements that flow in a step or flowed in the one before: kept for its memory.
+    pub(super) working: Vec<WorkingBlock>,
 
     pub(super) time: f64,
     pub(super) step: u64,
@@ -270,9 +282,9 @@ impl State {
         for segment in &self.segments {
             if self.parts[segment.part].role == Role::Projectile {
                 for i in segment.first_node..=segment.last_node {
-                    let mass = self.nodes[i].mass - self.tip_mass_on(i);
+                    let mass = self.nodes.mass[i] - self.tip_mass_on(i);
                     sums.0 += mass;
-                    sums.1 += mass * self.nodes[i].velocity;
+                    sums.1 += mass * self.nodes.velocity[i];
                 }
             }
         }
@@ -285,12 +297,12 @@ impl State {
     pub(super) fn depth(&self) -> f64 {
         match (self.face_segment(), self.tip_segment(), self.end) {
             (Some(face), _, BoundaryCondition::Open { stiffness: 0.0, .. }) => {
-                let back = self.nodes[self.nodes.len() - 1].position - self.back_position;
-                self.nodes[self.segments[face].first_node].position - back
+                let back = self.nodes.position[self.nodes.len() - 1] - self.back_position;
+                self.nodes.position[self.segments[face].first_node] - back
             }
-            (Some(face), ..) => self.nodes[self.segments[face].first_node].position,
+            (Some(face), ..) => self.nodes.position[self.segments[face].first_node],
             (None, Some(tip), _) if self.tip_friction > 0.0 => {
-                self.nodes[self.segments[tip].last_node].position
+                self.nodes.position[self.segments[tip].last_node]
             }
             _ => 0.0,
         }
@@ -299,17 +311,18 @@ impl State {
     /// Mean velocity of a segment [m/s]; 0 for a wall.
     pub(super) fn mean_velocity(&self, segment: Segment) -> f64 {
         let (mut mass, mut momentum) = (0.0, 0.0);
-        for node in &self.nodes[segment.first_node..=segment.last_node] {
-            mass += node.mass;
-            momentum += node.mass * node.velocity;
+        for i in segment.first_node..=segment.last_node {
+            mass += self.nodes.mass[i];
+            momentum += self.nodes.mass[i] * self.nodes.velocity[i];
         }
         if mass > 0.0 { momentum / mass } else { 0.0 }
     }
 
     /// Elastic energy of an element between two steps.
     pub(super) fn elastic_energy(&self, element: usize, part: &Section) -> f64 {
-        let element = &self.elements[element];
-        element.spring.elastic_energy(element.volume, part.modulus)
+        let spring = self.elements.part(element, |block| &block.spring);
+        let volume = self.elements.part(element, |block| &block.volume);
+        spring.elastic_energy(volume, part.modulus)
     }
 
     /// Energy and momentum of projectile and target.
@@ -318,11 +331,13 @@ impl State {
         for segment in &self.segments {
             let part = &self.parts[segment.part];
             let sums = &mut sums[part.role as usize];
-            for node in &self.nodes[segment.first_node..=segment.last_node] {
-                sums.add_node(&node.mass, &node.velocity);
+            for i in segment.first_node..=segment.last_node {
+                sums.add_node(&self.nodes.mass[i], &self.nodes.velocity[i]);
             }
-            for element in &self.elements[segment.elements()] {
-                sums.add_spring(&element.spring, &element.volume, &part.modulus);
+            for e in segment.elements() {
+                let spring = self.elements.part(e, |block| &block.spring);
+                let volume = self.elements.part(e, |block| &block.volume);
+                sums.add_spring(&spring, &volume, &part.modulus);
             }
         }
         sums

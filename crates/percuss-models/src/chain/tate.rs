@@ -32,7 +32,8 @@ pub(super) struct Tip {
 
 /// Longest time step [s] in which no element can be crushed to nothing.
 pub(super) fn longest_step(state: &State, speed: f64) -> f64 {
-    let lengths = state.elements.iter().map(|element| element.rest_length);
+    let lengths =
+        (0..state.elements.len()).map(|e| state.elements.part(e, |block| &block.rest_length));
     LARGEST_ADVANCE * lengths.fold(f64::INFINITY, f64::min) / speed
 }
 
@@ -44,10 +45,8 @@ impl State {
         };
         let part = &self.parts[segment.part];
         let mass = part.density * self.parts[0].area * TIP_THICKNESS * diameter;
-        for node in &mut self.nodes[segment.first_node + 1..] {
-            node.friction = HELD;
-        }
-        self.nodes[segment.first_node].mass += mass;
+        self.nodes.friction[segment.first_node + 1..].fill(HELD);
+        self.nodes.mass[segment.first_node] += mass;
         self.tip = Some(Tip {
             mass,
             node: segment.first_node,
@@ -89,17 +88,17 @@ impl State {
         if tip.node != node && tip.node != partner {
             return None;
         }
-        let pair = [node, partner].map(|i| (self.nodes[i].mass, self.nodes[i].velocity));
+        let pair = [node, partner].map(|i| (self.nodes.mass[i], self.nodes.velocity[i]));
         let tip_mass = pair[0].0 + pair[1].0;
         let before = (pair[0].0 * pair[0].1 + pair[1].0 * pair[1].1) / tip_mass;
         // Of `M (u' − u) = m (v − (u + u')/2)`.
         let share = mass / tip_mass;
-        let jump = share * (self.nodes[other].velocity - before) / (1.0 + 0.5 * share);
+        let jump = share * (self.nodes.velocity[other] - before) / (1.0 + 0.5 * share);
         let leaving = before + 0.5 * jump;
         let rest = tip_mass - mass;
         let after = (tip_mass * before - mass * leaving) / rest;
-        self.nodes[node].velocity = after;
-        self.nodes[partner].velocity = after;
+        self.nodes.velocity[node] = after;
+        self.nodes.velocity[partner] = after;
         let kinetic = |mass: f64, velocity: f64| 0.5 * mass * velocity * velocity;
         self.accumulated.kicks.contact_loss +=
             pair.iter().map(|&(m, v)| kinetic(m, v)).sum::<f64>()
@@ -121,9 +120,9 @@ impl State {
         } else {
             return;
         };
-        let momentum = tip.mass * self.nodes[tip.node].velocity;
-        let energy = 0.5 * momentum * self.nodes[tip.node].velocity;
-        self.nodes[tip.node].mass -= tip.mass;
+        let momentum = tip.mass * self.nodes.velocity[tip.node];
+        let energy = 0.5 * momentum * self.nodes.velocity[tip.node];
+        self.nodes.mass[tip.node] -= tip.mass;
         let Some(across) = across else {
             self.accumulated.eroded_momentum += momentum;
             self.accumulated.eroded_energy += energy;
@@ -131,10 +130,12 @@ impl State {
             return;
         };
         // In contact both have one velocity; otherwise this is a plastic impact.
-        let node = &mut self.nodes[across];
+        let mut node = self.nodes.at(across);
         let before = 0.5 * node.mass * node.velocity * node.velocity + energy;
         node.velocity = (node.mass * node.velocity + momentum) / (node.mass + tip.mass);
         node.mass += tip.mass;
+        self.nodes.velocity[across] = node.velocity;
+        self.nodes.mass[across] = node.mass;
         self.accumulated.kicks.contact_loss +=
             before - 0.5 * node.mass * node.velocity * node.velocity;
         self.tip = Some(Tip {
@@ -150,7 +151,7 @@ impl State {
         {
             let first = self.segments[face].first_node;
             debug_assert_eq!(self.parts[self.segments[face].part].role, Role::Target);
-            self.nodes[first].friction = 0.0;
+            self.nodes.friction[first] = 0.0;
         }
     }
 }

@@ -4,7 +4,7 @@ use super::{
     column::ColumnRun,
     mesh,
     solver::StepControl,
-    state::{Segment, State},
+    state::{Element, Node, Nodes, Segment, State},
 };
 use crate::{
     Scenario,
@@ -44,15 +44,23 @@ const CONTROL: StepControl = StepControl {
 fn mirror(mut state: State) -> State {
     state.parts.reverse();
     state.interfaces.reverse();
-    state.nodes.reverse();
-    state.elements.reverse();
-    for node in &mut state.nodes {
-        node.position = -node.position;
-        node.velocity = -node.velocity;
+    let mut nodes = Nodes::default();
+    for i in 0..state.nodes.len() {
+        let node = state.nodes.at(state.nodes.len() - 1 - i);
+        let mirrored = Node {
+            position: -node.position,
+            velocity: -node.velocity,
+            ..node
+        };
+        nodes.insert(i, mirrored);
     }
-    for element in &mut state.elements {
-        element.initial_position = -element.initial_position;
-    }
+    state.nodes = nodes;
+    let elements = state.elements.iter(0..state.elements.len()).rev();
+    let mirrored = elements.map(|element| Element {
+        initial_position: -element.initial_position,
+        ..element
+    });
+    state.elements = mirrored.collect();
     let mut first_node = 0;
     state.segments.clear();
     for (part, body) in state.parts.iter().enumerate() {
@@ -82,8 +90,9 @@ fn a_mirrored_impact_is_the_mirror_of_the_impact() {
             state.advance(&CONTROL).unwrap();
             mirrored.advance(&CONTROL).unwrap();
         }
-        for (node, image) in state.nodes.iter().zip(mirrored.nodes.iter().rev()) {
-            let off = (node.position + image.position).abs();
+        let images = mirrored.nodes.position.iter().rev();
+        for (position, image) in state.nodes.position.iter().zip(images) {
+            let off = (position + image).abs();
             assert!(off < 1e-9, "{pair:?}: {off:e} m apart");
         }
     }
@@ -95,12 +104,11 @@ fn what_is_at_rest_stays_at_rest() {
         for back_face in ["fixed", "free", "non-reflecting"] {
             let mut state =
                 mesh::build(&scenario(&entry.id, "aluminium-2024-t351", 0.0, back_face));
-            let before: Vec<f64> = state.nodes.iter().map(|node| node.position).collect();
+            let before = state.nodes.position.clone();
             for _ in 0..50 {
                 state.advance(&CONTROL).unwrap();
             }
-            let after: Vec<f64> = state.nodes.iter().map(|node| node.position).collect();
-            assert_eq!(before, after, "{} {back_face}", entry.id);
+            assert_eq!(before, state.nodes.position, "{} {back_face}", entry.id);
         }
     }
 }
@@ -124,7 +132,7 @@ fn the_share_of_border_shear_on_the_face_explains_the_coarse_meshes() {
             .unwrap();
         let mut run = ColumnRun::new(&scenario, &mut Control::default()).unwrap();
         let face = elements.0 as usize + 1;
-        run.solver.state.nodes[face].friction *= 2.0;
+        run.solver.state.nodes.friction[face] *= 2.0;
         let whole = run.run(&mut Control::default()).unwrap();
         let depth = |result: &crate::outcome::RunResult| result.depth_of_penetration.unwrap() * 1e3;
         println!(
@@ -186,14 +194,14 @@ fn depth_closing_gaps(velocity: f64, close: fn(&mut State, usize, usize)) -> f64
 #[test]
 fn the_closing_of_eroded_gaps_explains_the_depths_with_erosion() {
     let tip_to_floor = |state: &mut State, a: usize, b: usize| {
-        state.nodes[a].position = state.nodes[b].position;
+        state.nodes.position[a] = state.nodes.position[b];
     };
     let to_centre_of_mass = |state: &mut State, a: usize, b: usize| {
-        let (tip, floor) = (state.nodes[a], state.nodes[b]);
+        let (tip, floor) = (state.nodes.at(a), state.nodes.at(b));
         let centre =
             (tip.mass * tip.position + floor.mass * floor.position) / (tip.mass + floor.mass);
-        state.nodes[a].position = centre;
-        state.nodes[b].position = centre;
+        state.nodes.position[a] = centre;
+        state.nodes.position[b] = centre;
     };
     for (velocity, other_mm) in [(600.0, 0.98), (800.0, 2.12), (1000.0, 3.51), (1500.0, 7.68)] {
         let high = depth_closing_gaps(velocity, tip_to_floor);

@@ -27,7 +27,7 @@ use crate::{
 /// Memory of a cell with its node and their copy in fields [bytes], and cells times steps per second of processor time.
 const WORK: WorkRate = WorkRate {
     bytes: 1000.0,
-    rate: 30e6,
+    rate: 55e6,
 };
 /// Duration of a rod's run in times of waves and of the expected stop: that of 80 % of random cases within a factor of 1.6.
 const ROD_DURATION: [f64; 2] = [3.0, 0.75];

@@ -20,8 +20,8 @@ impl Bundle {
         }
         self.tails[lane] = state.segments[0].first_node;
         let bit = 1 << lane;
-        for (e, element) in state.elements.iter().enumerate() {
-            if element.eroded {
+        for e in 0..state.elements.len() {
+            if state.elements.part(e, |block| &block.eroded) {
                 self.marks[e].gone |= bit;
                 let spring = &mut self.springs[e];
                 spring.stress.0[lane] = 0.0;
@@ -36,8 +36,8 @@ impl Bundle {
         }
         for (i, is_left) in is_left.into_iter().enumerate() {
             if is_left {
-                self.masses[i].0[lane] = state.nodes[i].mass;
-                self.frictions[i].0[lane] = state.nodes[i].friction;
+                self.masses[i].0[lane] = state.nodes.mass[i];
+                self.frictions[i].0[lane] = state.nodes.friction[i];
             } else {
                 // No force acts on it any more.
                 self.nodes[i].velocity.0[lane] = 0.0;

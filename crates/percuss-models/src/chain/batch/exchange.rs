@@ -23,14 +23,15 @@ impl Bundle {
     /// Puts a run at the moment of impact into a lane.
     pub(super) fn load_lane(&mut self, lane: usize, run: &ColumnRun<'_>) {
         let state = &run.solver.state;
-        for (i, from) in state.nodes.iter().enumerate() {
+        for i in 0..state.nodes.len() {
+            let from = state.nodes.at(i);
             self.nodes[i].position.0[lane] = from.position;
             self.nodes[i].velocity.0[lane] = from.velocity;
             self.moves[i] |= from.velocity != 0.0;
             self.masses[i].0[lane] = from.mass;
             self.frictions[i].0[lane] = from.friction;
         }
-        for (e, from) in state.elements.iter().enumerate() {
+        for (e, from) in state.elements.iter(0..state.elements.len()).enumerate() {
             self.springs[e].set_lane(lane, from.spring);
             self.forces[e].set_lane(lane, from.axial_force);
             self.plastics[e].set_lane(lane, from.plastic);
@@ -69,19 +70,20 @@ impl Bundle {
         let mut is_sound = true;
         for segment in &state.segments {
             for i in segment.first_node..=segment.last_node {
-                state.nodes[i].position = self.nodes[i].position.0[lane];
-                state.nodes[i].velocity = self.nodes[i].velocity.0[lane];
+                state.nodes.position[i] = self.nodes[i].position.0[lane];
+                state.nodes.velocity[i] = self.nodes[i].velocity.0[lane];
             }
             for e in segment.elements() {
                 let node = e + segment.shift;
-                let to = &mut state.elements[e];
-                to.length = state.nodes[node + 1].position - state.nodes[node].position;
+                let mut to = state.elements.get(e);
+                to.length = state.nodes.position[node + 1] - state.nodes.position[node];
                 is_sound &= to.length > 0.0;
                 to.spring = self.springs[e].lane(lane);
                 to.axial_force = self.forces[e].lane(lane);
                 to.plastic = self.plastics[e].lane(lane);
                 to.yield_point = self.points[e].lane(lane);
                 to.strain = to.plastic.axial + log_ratio(to.spring.unloaded_length, to.length);
+                state.elements.set(e, to);
             }
         }
         for interface in self
@@ -130,8 +132,8 @@ impl Bundle {
 impl Body {
     /// Body `b` of a state, `count` elements from one on, that erode when they are longer or shorter by a factor.
     fn of(state: &State, b: usize, first: usize, count: usize, stretch: f64) -> Self {
-        let (part, element) = (&state.parts[b], &state.elements[first]);
-        let nodes = &state.nodes[first + b..=first + b + count];
+        let (part, element) = (&state.parts[b], state.elements.get(first));
+        let frictions = &state.nodes.friction[first + b..=first + b + count];
         let half = element.end_masses[0];
         Self {
             flow: FlowConstants::of(part),
@@ -140,9 +142,9 @@ impl Body {
             volume: element.volume,
             mass: half + half,
             end_mass: half,
-            friction: nodes[1.min(count - 1)].friction,
-            first_friction: nodes[0].friction,
-            last_friction: nodes[count].friction,
+            friction: frictions[1.min(count - 1)],
+            first_friction: frictions[0],
+            last_friction: frictions[count],
             shortest: element.rest_length / stretch * CLOSE,
             longest: element.rest_length * stretch / CLOSE,
         }

@@ -1,40 +1,10 @@
 //! Nodes, number by number: what a step does with all of them works on eight at a time.
 
-use serde::{Deserialize, Serialize};
-
 use super::kick::dry_friction;
 
-/// A node and all nodes, which have a list of every number.
-macro_rules! nodes {
-    ($(#[$about:meta])* $one:ident, $(#[$about_all:meta])* $all:ident { $($(#[$note:meta])* $number:ident,)* }) => {
-        $(#[$about])*
-        #[derive(Debug, Clone, Copy, Default)]
-        pub(in crate::fdm) struct $one {
-            $($(#[$note])* pub(in crate::fdm) $number: f64,)*
-        }
-
-        $(#[$about_all])*
-        #[derive(Debug, Clone, Default, Serialize, Deserialize)]
-        pub(in crate::fdm) struct $all {
-            $($(#[$note])* pub(in crate::fdm) $number: Vec<f64>,)*
-        }
-
-        impl $all {
-            /// A copy of a node.
-            pub(in crate::fdm) fn at(&self, i: usize) -> $one {
-                $one { $($number: self.$number[i],)* }
-            }
-
-            pub(super) fn insert(&mut self, i: usize, node: $one) {
-                $(self.$number.insert(i, node.$number);)*
-            }
-        }
-    };
-}
-
-nodes! {
+percuss_core::number_lists! {
     /// A node: everything that moves at one velocity.
-    Node,
+    pub(in crate::fdm) Node,
     /// All nodes, back to front.
     Nodes {
         /// [m].

@@ -8,22 +8,13 @@ use super::{
 };
 use crate::{
     fdm::grid::{Motions, limited},
-    lanes::{LANES, LaneFlags, Lanes, PerLane, any, flags, lanes, smaller},
+    lanes::{LANES, Lanes, PerLane, any, blocks_of, flags, lanes, smaller},
     material::{LaneStrength, LaneTrial, LawVisitor, plastic_increments},
 };
 
 #[cfg(test)]
 #[path = "blocks_tests.rs"]
 mod tests;
-
-/// Blocks that have cells of a range, and which of their lanes are such.
-fn blocks_of(range: Range<usize>) -> impl Iterator<Item = (usize, LaneFlags)> {
-    let blocks = range.start / LANES..range.end.div_ceil(LANES);
-    blocks.map(move |block| {
-        let own = std::array::from_fn(|l| range.contains(&(block * LANES + l)));
-        (block, LaneFlags(own))
-    })
-}
 
 /// Loads cells in blocks of eight, by the equations of one by one.
 pub(super) struct LoadBlocks<'a> {

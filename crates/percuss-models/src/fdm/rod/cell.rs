@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     fdm::grid::Cells,
-    lanes::{LANES, Lanes, PerLane, Real, larger},
+    lanes::{Blocks, Lanes, Real, larger},
     material::{FlowState, Trial, YieldPoint},
 };
 
@@ -131,35 +131,22 @@ impl RodCell {
 }
 
 /// All cells, in blocks of eight.
-#[derive(Debug, Default, Serialize, Deserialize)]
-pub(super) struct RodCells {
-    pub(super) blocks: Vec<RodCell<Lanes>>,
-    count: usize,
-}
+pub(super) type RodCells = Blocks<RodCell<Lanes>>;
 
 impl Cells<RodCell> for RodCells {
     fn count(&self) -> usize {
-        self.count
+        self.len()
     }
 
     fn cell(&self, i: usize) -> RodCell {
-        self.blocks[i / LANES].lane(i % LANES)
+        self.get(i)
     }
 
     fn set_cell(&mut self, i: usize, cell: RodCell) {
-        self.blocks[i / LANES].set_lane(i % LANES, cell);
+        self.set(i, cell);
     }
 
     fn add(&mut self, cell: RodCell) {
-        if self.count.is_multiple_of(LANES) {
-            // Lanes without a cell repeat the last one.
-            let mut block = RodCell::default();
-            for l in 0..LANES {
-                block.set_lane(l, cell);
-            }
-            self.blocks.push(block);
-        }
-        self.set_cell(self.count, cell);
-        self.count += 1;
+        self.push(cell);
     }
 }

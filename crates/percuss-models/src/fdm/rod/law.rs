@@ -123,7 +123,7 @@ impl Law for RodLaw {
         match self.strength.in_lanes() {
             Some(law) => law.visit(LoadBlocks {
                 rod: self,
-                blocks: &mut cells.blocks,
+                blocks: cells.blocks_mut(),
                 range,
                 motions,
                 forces,
@@ -162,7 +162,7 @@ impl Law for RodLaw {
         }
         pulp::Arch::new().dispatch(StableStep {
             rod: self,
-            blocks: &cells.blocks,
+            blocks: cells.blocks(),
             range,
             motions,
         })
