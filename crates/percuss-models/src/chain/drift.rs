@@ -293,7 +293,7 @@ impl SegmentDrift<'_> {
                 spring.bear(part.modulus * elastic);
                 let stable = spring.stable_step(length, part.compliance, part.slowness);
                 let rate = approach_rate(closing - advance_step[l] / self.time_step, length);
-                let flows = own.0[l] & !(spring.stress.abs() <= elastic_to[l]);
+                let flows = own.0[l] & (spring.stress.abs() > elastic_to[l]);
                 let one = Borne {
                     length,
                     strain: axial[l] + elastic,

@@ -55,7 +55,7 @@ impl LawVisitor<f64> for LoadBlocks<'_> {
                     .choose(l, own, step, steps_before[l]);
             }
             let (stress, most) = (block.elastic.stress, block.yield_point.elastic_to());
-            let flows = flags(|l| own.0[l] & !(stress[l].abs() <= most[l]));
+            let flows = flags(|l| own.0[l] & (stress[l].abs() > most[l]));
             if any(&flows) {
                 rod.flow_together(law, block, &flows, &constants);
             }
