@@ -122,6 +122,7 @@ impl State {
             fastest: 0.0,
             largest_strain: 0.0,
         };
+        // Those that belong to no element any more fly on: nothing looks at them.
         let nodes = self.nodes.position.iter_mut().zip(&self.nodes.velocity);
         for (position, velocity) in nodes {
             *position += velocity * time_step;
