@@ -291,6 +291,20 @@ pub fn one<const N: usize>(all: &[Lanes; N], lane: usize) -> [f64; N] {
     values
 }
 
+/// Eight numbers of a list from a place on.
+#[inline(always)]
+pub fn load(numbers: &[f64], place: usize) -> Lanes {
+    let mut eight = [0.0; LANES];
+    eight.copy_from_slice(&numbers[place..][..LANES]);
+    Lanes(eight)
+}
+
+/// Puts eight numbers back.
+#[inline(always)]
+pub fn store(numbers: &mut [f64], place: usize, eight: &Lanes) {
+    numbers[place..][..LANES].copy_from_slice(&eight.0);
+}
+
 /// Numbers by way of memory: a loop that computed them stays vector instructions although lanes are read one by one afterwards.
 #[inline(always)]
 pub fn settled<T>(numbers: T) -> T {

@@ -15,7 +15,8 @@ use super::{
 use crate::{
     error::NumericalError,
     lanes::{
-        LANES, LaneFlags, Lanes, PerLane, any, blocks_of, flags, lanes, larger, settled, smaller,
+        LANES, LaneFlags, Lanes, PerLane, any, blocks_of, flags, lanes, larger, load, settled,
+        smaller,
     },
     material::{LaneLaw, LaneStrength, LawVisitor},
     options::Kinematics,
@@ -78,15 +79,13 @@ impl Found {
 /// Eight numbers of a list from a place on, or those that there are, and zeros.
 #[inline(always)]
 fn eight(all: &[f64], first: usize) -> Lanes {
-    let mut numbers = [0.0; LANES];
-    match all.get(first..first + LANES) {
-        Some(eight) => numbers.copy_from_slice(eight),
-        None => {
-            let rest = &all[first.min(all.len())..];
-            numbers[..rest.len()].copy_from_slice(rest);
-        }
+    if first + LANES <= all.len() {
+        return load(all, first);
     }
-    Lanes(numbers)
+    let mut numbers = Lanes::all(0.0);
+    let rest = &all[first.min(all.len())..];
+    numbers[..rest.len()].copy_from_slice(rest);
+    numbers
 }
 
 /// A block with elements that flow, or flowed in the last step.
@@ -268,7 +267,9 @@ impl SegmentDrift<'_> {
             let from = eight(&self.nodes.velocity, first);
             let to = eight(&self.nodes.velocity, first + 1);
             let moves = |l: usize| (from[l] != 0.0) | (to[l] != 0.0);
-            if !any(&flags(|l| own.0[l] & (moves(l) | !is_settled(block, l)))) {
+            if !any(&flags(|l| {
+                own.0[l] & (moves(l) | !block.lane(l).is_settled())
+            })) {
                 // Where no wave has come, or border shear holds, nothing changes.
                 let stable = stable_steps(block, part);
                 for l in 0..LANES {
@@ -407,15 +408,6 @@ percuss_core::per_lane! {
         /// Stable time step [s].
         stable: R,
     }
-}
-
-/// [`Element::is_settled`] of an element of a block.
-#[inline(always)]
-fn is_settled(block: &Element<Lanes>, l: usize) -> bool {
-    (block.plastic.step[l] == 0.0)
-        & (block.viscous_force[l] == 0.0)
-        & (block.spring.stress[l] == block.spring.stress_before[l])
-        & (block.advance_step[l] == 0.0)
 }
 
 /// Stable time steps of the elements of a block in logarithmic strain [s].

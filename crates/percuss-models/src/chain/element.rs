@@ -185,10 +185,10 @@ impl Element {
     /// Whether an update to the same length would change nothing.
     #[inline(always)]
     pub(super) fn is_settled(&self) -> bool {
-        self.plastic.step == 0.0
-            && self.viscous_force == 0.0
-            && self.spring.stress == self.spring.stress_before
-            && self.advance_step == 0.0
+        (self.plastic.step == 0.0)
+            & (self.viscous_force == 0.0)
+            & (self.spring.stress == self.spring.stress_before)
+            & (self.advance_step == 0.0)
     }
 
     /// Largest stable time step of the undamped element [s].

@@ -134,14 +134,15 @@ pub(in crate::fdm) trait Law: fmt::Debug + Sized {
     /// Largest stable time step [s].
     fn stable_step(&self, cell: &Self::Cell, length: f64, approach: f64) -> f64;
 
-    /// The smallest one of a range of cells that also shorten slowly enough in it [s].
+    /// The smallest one of a range of cells that also shorten slowly enough in it [s]; `ends` are the lengths of all cells and the speeds
+    /// at which their faces approach.
     fn stable_step_of_all(
         &self,
         cells: &Self::Cells,
         range: Range<usize>,
-        motions: &Motions<'_>,
+        ends: [&[f64]; 2],
     ) -> f64 {
-        stable_step_one_by_one(self, cells, range, motions)
+        stable_step_one_by_one(self, cells, range, ends)
     }
 
     /// Energy at the start of the step in whose middle the cell was loaded.
@@ -180,10 +181,10 @@ pub(in crate::fdm) fn stable_step_one_by_one<L: Law>(
     law: &L,
     cells: &L::Cells,
     range: Range<usize>,
-    motions: &Motions<'_>,
+    [lengths, approaches]: [&[f64]; 2],
 ) -> f64 {
     let steps = range.map(|c| {
-        let (length, approach) = (motions.lengths[c], motions.approaches[c]);
+        let (length, approach) = (lengths[c], approaches[c]);
         let stable = law.stable_step(&cells.cell(c), length, approach);
         limited(stable, length, approach)
     });

@@ -325,15 +325,10 @@ impl<L: Law> Grid<L> {
 
     /// Finds the next stable step.
     fn find_stable_step(&mut self) {
-        let motions = Motions {
-            lengths: &self.lengths,
-            approaches: &self.approaches,
-            since_load: 0.0,
-            time_step: 0.0,
-        };
+        let ends = [&self.lengths[..], &self.approaches[..]];
         let steps = self.segments.iter().map(|segment| {
             let law = &self.bodies[segment.body];
-            law.stable_step_of_all(&self.cells, segment.cells.clone(), &motions)
+            law.stable_step_of_all(&self.cells, segment.cells.clone(), ends)
         });
         self.stable_step = steps.fold(f64::INFINITY, f64::min);
     }

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     fdm::grid::{Motions, limited},
-    lanes::{LANES, Lanes, PerLane, any, blocks_of, flags, lanes, smaller},
+    lanes::{LANES, Lanes, PerLane, any, blocks_of, flags, lanes, load, smaller, store},
     material::{LaneStrength, LaneTrial, LawVisitor, plastic_increments},
 };
 
@@ -16,7 +16,7 @@ use crate::{
 #[path = "blocks_tests.rs"]
 mod tests;
 
-/// Loads cells in blocks of eight, by the equations of one by one.
+/// Loads cells eight at a time, by the equations of one.
 pub(super) struct LoadBlocks<'a> {
     pub(super) rod: &'a RodLaw,
     pub(super) blocks: &'a mut [RodCell<Lanes>],
@@ -38,36 +38,30 @@ impl LawVisitor<f64> for LoadBlocks<'_> {
         let constants = rod.constants(self.motions.since_load);
         for (b, own) in blocks_of(self.range) {
             let (block, first) = (&mut self.blocks[b], b * LANES);
-            let length = at(self.motions.lengths, first);
-            let (elastic, steps) = (block.elastic, block.plastic.step);
+            let length = load(self.motions.lengths, first);
+            let (elastic, steps_before) = (block.elastic, block.plastic.step);
             for l in 0..LANES {
                 let (before, mut one) = (elastic.lane(l), elastic.lane(l));
                 one.stretch(length[l], rod.modulus);
                 block.elastic.choose(l, own.0[l], one, before);
             }
-            let steps_before = block.plastic.step_before;
             for l in 0..LANES {
-                let (own, step) = (own.0[l], steps[l]);
-                block.plastic.step.choose(l, own, 0.0, step);
-                block
-                    .plastic
-                    .step_before
-                    .choose(l, own, step, steps_before[l]);
+                block.plastic.step.choose(l, own.0[l], 0.0, steps_before[l]);
             }
             let (stress, most) = (block.elastic.stress, block.yield_point.elastic_to());
             let flows = flags(|l| own.0[l] & (stress[l].abs() > most[l]));
             if any(&flows) {
                 rod.flow_together(law, block, &flows, &constants);
             }
-            let mut work = block.plastic_work;
+            let (mut work, steps) = (block.plastic_work, block.plastic.step);
             for l in 0..LANES {
-                let (before, plastic) = (work[l], block.plastic.lane(l));
-                let done = before + plastic.work(&block.elastic.lane(l), block.volume[l]);
+                let (before, one) = (work[l], block.elastic.lane(l));
+                let done = before + one.plastic_work(block.volume[l], steps_before[l] + steps[l]);
                 work.choose(l, own.0[l], done, before);
             }
             block.plastic_work = work;
             if !rod.viscosity.is_none() {
-                let approach = at(self.motions.approaches, first);
+                let approach = load(self.motions.approaches, first);
                 for l in 0..LANES {
                     let before = block.viscous_pressure[l];
                     let pressure = rod.viscous_pressure(approach[l]);
@@ -78,17 +72,9 @@ impl LawVisitor<f64> for LoadBlocks<'_> {
                 let stress = block.elastic.stress[l] + block.viscous_pressure[l];
                 stress * block.volume[l] / block.elastic.length[l]
             });
-            self.forces[first..first + LANES].copy_from_slice(&forces.0);
+            store(self.forces, first, &forces);
         }
     }
-}
-
-/// The numbers of a block in a list.
-#[inline(always)]
-fn at(all: &[f64], first: usize) -> Lanes {
-    let mut numbers = [0.0; LANES];
-    numbers.copy_from_slice(&all[first..first + LANES]);
-    Lanes(numbers)
 }
 
 impl RodLaw {
@@ -129,7 +115,8 @@ pub(super) struct StableStep<'a> {
     pub(super) rod: &'a RodLaw,
     pub(super) blocks: &'a [RodCell<Lanes>],
     pub(super) range: Range<usize>,
-    pub(super) motions: &'a Motions<'a>,
+    pub(super) lengths: &'a [f64],
+    pub(super) approaches: &'a [f64],
 }
 
 impl pulp::NullaryFnOnce for StableStep<'_> {
@@ -140,8 +127,8 @@ impl pulp::NullaryFnOnce for StableStep<'_> {
         let mut shortest = Lanes::all(f64::INFINITY);
         for (b, own) in blocks_of(self.range) {
             let (stress, first) = (self.blocks[b].elastic.stress, b * LANES);
-            let length = at(self.motions.lengths, first);
-            let approach = at(self.motions.approaches, first);
+            let length = load(self.lengths, first);
+            let approach = load(self.approaches, first);
             for l in 0..LANES {
                 let stable = self.rod.wave_time(stress[l], length[l]);
                 let step = limited(stable, length[l], approach[l]);

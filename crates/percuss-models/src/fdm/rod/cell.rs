@@ -25,10 +25,9 @@ percuss_core::per_lane! {
     /// Plastic state of a cell.
     #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
     pub(super) struct Plastic<R = f64> {
-        /// Signed axial plastic strain, compression positive, and its part in the last load and in the one before.
+        /// Signed axial plastic strain, compression positive, and its part in the last load.
         pub(super) axial: R,
         pub(super) step: R,
-        pub(super) step_before: R,
         /// Accumulated plastic strain.
         pub(super) strain: R,
         /// Largest plastic strain rate so far [1/s].
@@ -64,6 +63,12 @@ impl Elastic {
         self.stress += modulus * step;
     }
 
+    /// Plastic work that belongs to the load before this one [J]; `steps` is the plastic strain of both.
+    #[inline(always)]
+    pub(super) fn plastic_work(&self, volume: f64, steps: f64) -> f64 {
+        0.5 * volume * self.stress_before * steps
+    }
+
     /// A trial stress beyond the yield surface.
     #[inline(always)]
     pub(super) fn trial(&self, modulus: f64, elapsed: Option<f64>) -> Trial {
@@ -97,12 +102,6 @@ impl Plastic {
         let mean = 0.5 * (elastic.stress_before + elastic.stress).abs();
         self.temperature += law.heating * mean * increment;
         self.largest_rate = larger(increment / law.elapsed, self.largest_rate);
-    }
-
-    /// Plastic work of a load [J].
-    #[inline(always)]
-    pub(super) fn work(&self, elastic: &Elastic, volume: f64) -> f64 {
-        0.5 * volume * elastic.stress_before * (self.step_before + self.step)
     }
 }
 

@@ -99,7 +99,7 @@ impl Law for RodLaw {
         let constants = self.constants(motion.since_load);
         let (elastic, plastic) = (&mut cell.elastic, &mut cell.plastic);
         elastic.stretch(motion.length, self.modulus);
-        plastic.step_before = std::mem::take(&mut plastic.step);
+        let step_before = std::mem::take(&mut plastic.step);
         if !cell.yield_point.holds(elastic.stress.abs()) {
             let (start, elapsed) = (plastic.state(elastic.stress), self.elapsed(&constants));
             let trial = elastic.trial(self.modulus, elapsed);
@@ -109,7 +109,7 @@ impl Law for RodLaw {
                 plastic.take(elastic, increment, &constants);
             }
         }
-        cell.plastic_work += plastic.work(elastic, cell.volume);
+        cell.plastic_work += elastic.plastic_work(cell.volume, step_before + plastic.step);
         cell.viscous_pressure = self.viscous_pressure(motion.approach);
     }
 
@@ -155,16 +155,17 @@ impl Law for RodLaw {
         &self,
         cells: &RodCells,
         range: Range<usize>,
-        motions: &Motions<'_>,
+        [lengths, approaches]: [&[f64]; 2],
     ) -> f64 {
         if !self.viscosity.is_none() {
-            return stable_step_one_by_one(self, cells, range, motions);
+            return stable_step_one_by_one(self, cells, range, [lengths, approaches]);
         }
         pulp::Arch::new().dispatch(StableStep {
             rod: self,
             blocks: cells.blocks(),
             range,
-            motions,
+            lengths,
+            approaches,
         })
     }
 

@@ -1,11 +1,11 @@
 //! Deformation gradients, stresses and forces of eight particles.
 
 use super::{
-    ring::{RING, ROWS, Ring, load, places},
+    ring::{RING, ROWS, Ring, places},
     state::{StressRow, Taken},
 };
 use crate::{
-    lanes::{Lanes, each_of, lanes, larger, settled, smaller},
+    lanes::{Lanes, each_of, lanes, larger, load, settled, smaller},
     particles::row::RowState,
     solid::{Law, MaterialPoints, Rates},
 };

@@ -3,7 +3,7 @@
 //! Neighbours are counted from the one along the row to larger `x`, towards the next row. Triangle `k` is that of the neighbours `k` and `k + 1`.
 
 use super::super::{body::Body, lattice::ROW};
-use crate::lanes::{LANES, Lanes, lanes};
+use crate::lanes::{LANES, Lanes, lanes, load};
 
 /// Neighbours of a particle inside, and its triangles.
 pub(super) const RING: usize = 6;
@@ -126,18 +126,4 @@ impl Ring {
                 / 6.0,
         ]
     }
-}
-
-/// Eight numbers of an array from a place on.
-#[inline(always)]
-pub(super) fn load(numbers: &[f64], place: usize) -> Lanes {
-    let mut eight = [0.0; LANES];
-    eight.copy_from_slice(&numbers[place..][..LANES]);
-    Lanes(eight)
-}
-
-/// Puts eight numbers back.
-#[inline(always)]
-pub(super) fn store(numbers: &mut [f64], place: usize, eight: &Lanes) {
-    numbers[place..][..LANES].copy_from_slice(&eight.0);
 }

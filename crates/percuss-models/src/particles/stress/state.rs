@@ -2,10 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ring::load;
 use crate::{
     Error,
-    lanes::{LANES, Lanes, each_of},
+    lanes::{LANES, Lanes, each_of, load},
     material::YieldPoint,
     solid::MaterialPoints,
     solver::{Particle, archive::Archive},

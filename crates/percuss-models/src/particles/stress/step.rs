@@ -5,12 +5,12 @@ use rayon::prelude::*;
 use super::{
     body::{StressBody, depths},
     kernel::{Deformation, differences, forces, softened, strain, volumes},
-    ring::{Ring, WHOLE, load, store},
+    ring::{Ring, WHOLE},
     state::{KeptPoints, StressRow, Taken},
 };
 use crate::{
     Error,
-    lanes::{LANES, Lanes, each_of, lanes, smaller},
+    lanes::{LANES, Lanes, each_of, lanes, load, smaller, store},
     particles::{
         bonded::Load,
         energy::BodySums,
