@@ -37,7 +37,7 @@ impl<L: Law> Grid<L> {
             for c in segment.cells.clone() {
                 let (a, b) = (self.nodes.at(c + s), self.nodes.at(c + s + 1));
                 let approach = a.velocity - b.velocity;
-                let mut cell = self.cells.cell(c);
+                let mut cell = self.cells.look(c, |cell| *cell);
                 law.load(
                     &mut cell,
                     Motion {

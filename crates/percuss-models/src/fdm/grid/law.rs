@@ -44,10 +44,11 @@ impl Motions<'_> {
 pub(in crate::fdm) trait Cells<C>: fmt::Debug + Default {
     fn count(&self) -> usize;
 
-    /// A copy of a cell.
-    fn cell(&self, i: usize) -> C;
+    /// Something of a cell.
+    fn look<T>(&self, i: usize, of: impl FnOnce(&C) -> T) -> T;
 
-    fn set_cell(&mut self, i: usize, cell: C);
+    /// Changes a cell.
+    fn change<T>(&mut self, i: usize, change: impl FnOnce(&mut C) -> T) -> T;
 
     fn add(&mut self, cell: C);
 }
@@ -57,12 +58,14 @@ impl<C: Copy + fmt::Debug> Cells<C> for Vec<C> {
         self.len()
     }
 
-    fn cell(&self, i: usize) -> C {
-        self[i]
+    #[inline(always)]
+    fn look<T>(&self, i: usize, of: impl FnOnce(&C) -> T) -> T {
+        of(&self[i])
     }
 
-    fn set_cell(&mut self, i: usize, cell: C) {
-        self[i] = cell;
+    #[inline(always)]
+    fn change<T>(&mut self, i: usize, change: impl FnOnce(&mut C) -> T) -> T {
+        change(&mut self[i])
     }
 
     fn add(&mut self, cell: C) {
@@ -169,10 +172,10 @@ pub(in crate::fdm) fn load_one_by_one<L: Law>(
     forces: &mut [f64],
 ) {
     for c in range {
-        let mut cell = cells.cell(c);
-        law.load(&mut cell, motions.of(c));
-        forces[c] = law.force(&cell);
-        cells.set_cell(c, cell);
+        forces[c] = cells.change(c, |cell| {
+            law.load(cell, motions.of(c));
+            law.force(cell)
+        });
     }
 }
 
@@ -185,7 +188,7 @@ pub(in crate::fdm) fn stable_step_one_by_one<L: Law>(
 ) -> f64 {
     let steps = range.map(|c| {
         let (length, approach) = (lengths[c], approaches[c]);
-        let stable = law.stable_step(&cells.cell(c), length, approach);
+        let stable = cells.look(c, |cell| law.stable_step(cell, length, approach));
         limited(stable, length, approach)
     });
     steps.fold(f64::INFINITY, f64::min)

@@ -312,11 +312,11 @@ impl<L: Law> Grid<L> {
             for c in segment.cells.clone() {
                 let (a, b) = (nodes.at(c + s), nodes.at(c + s + 1));
                 let mean = 0.5 * (a.before + a.velocity - b.before - b.velocity);
-                let mut cell = self.cells.cell(c);
-                if !law.finish(&mut cell, self.lengths[c], mean * time_step) {
+                let (length, shortening) = (self.lengths[c], mean * time_step);
+                let finish = |cell: &mut L::Cell| law.finish(cell, length, shortening);
+                if !self.cells.change(c, finish) {
                     return Err(self.inverted(c));
                 }
-                self.cells.set_cell(c, cell);
             }
         }
         self.find_stable_step();

@@ -74,7 +74,7 @@ impl<L: Law> Grid<L> {
         let mut elements = Vec::with_capacity(self.cells.count() / stride + 1);
         for (s, segment) in self.segments.iter().enumerate() {
             for c in segment.cells.clone().step_by(stride) {
-                let view = self.bodies[segment.body].view(&self.cells.cell(c));
+                let view = (self.cells).look(c, |cell| self.bodies[segment.body].view(cell));
                 let (back, front) = (self.nodes.position[c + s], self.nodes.position[c + s + 1]);
                 elements.push(ElementState {
                     part: segment.body,
@@ -102,8 +102,8 @@ impl<L: Law> Grid<L> {
         let own = self.segments.iter().filter(move |s| s.body == body);
         own.flat_map(move |segment| {
             let law = &self.bodies[body];
-            let cells = segment.cells.clone().map(|c| self.cells.cell(c));
-            cells.map(|cell| law.view(&cell))
+            let cells = segment.cells.clone();
+            cells.map(move |c| self.cells.look(c, |cell| law.view(cell)))
         })
     }
 }

@@ -26,11 +26,8 @@ impl<L: Law> Grid<L> {
             let segment = self.segments[s].clone();
             let law = &self.bodies[segment.body];
             if let Some(strength) = law.spall_strength() {
-                let pull = |c: usize| {
-                    let sum = law.axial_stress(&self.cells.cell(c))
-                        + law.axial_stress(&self.cells.cell(c - 1));
-                    -0.5 * sum
-                };
+                let stress = |c: usize| self.cells.look(c, |cell| law.axial_stress(cell));
+                let pull = |c: usize| -0.5 * (stress(c) + stress(c - 1));
                 let inner = segment.cells.start + 1..segment.cells.end;
                 let hardest = inner.max_by(|a, b| pull(*a).total_cmp(&pull(*b)));
                 if let Some(cell) = hardest.filter(|cell| pull(*cell) > strength) {
@@ -46,7 +43,8 @@ impl<L: Law> Grid<L> {
     fn split(&mut self, s: usize, cell: usize) {
         let Segment { body, cells } = self.segments[s].clone();
         let node = cell + s;
-        let initial = |c: usize| self.bodies[body].view(&self.cells.cell(c)).initial_position;
+        let view = |c: usize| self.cells.look(c, |cell| self.bodies[body].view(cell));
+        let initial = |c: usize| view(c).initial_position;
         let position = 0.5 * (initial(cell - 1) + initial(cell));
         self.spalls.push(Spall {
             body,

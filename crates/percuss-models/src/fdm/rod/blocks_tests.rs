@@ -62,9 +62,9 @@ fn load_both_ways(metal: &str, viscosity: f64) {
     }
     let count = grid.cells.count();
     let mut alone = RodCells::default();
-    let cells = (0..count).map(|c| grid.cells.cell(c));
+    let cells = (0..count).map(|c| grid.cells.get(c));
     cells.for_each(|cell| alone.add(cell));
-    let rest: Vec<f64> = (0..count).map(|c| alone.cell(c).rest_length()).collect();
+    let rest: Vec<f64> = (0..count).map(|c| alone.get(c).rest_length()).collect();
     let mut flowed = 0;
     for step in 0..60 {
         let mut lengths = vec![1.0; count.next_multiple_of(LANES)];
@@ -95,7 +95,7 @@ fn load_both_ways(metal: &str, viscosity: f64) {
             assert_eq!(steps[0].to_bits(), steps[1].to_bits());
         }
         for c in 0..count {
-            let (cell, other) = (alone.cell(c), grid.cells.cell(c));
+            let (cell, other) = (alone.get(c), grid.cells.get(c));
             assert_eq!(
                 bits(&cell),
                 bits(&other),

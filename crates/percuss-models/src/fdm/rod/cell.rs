@@ -137,12 +137,12 @@ impl Cells<RodCell> for RodCells {
         self.len()
     }
 
-    fn cell(&self, i: usize) -> RodCell {
-        self.get(i)
+    fn look<T>(&self, i: usize, of: impl FnOnce(&RodCell) -> T) -> T {
+        of(&self.get(i))
     }
 
-    fn set_cell(&mut self, i: usize, cell: RodCell) {
-        self.set(i, cell);
+    fn change<T>(&mut self, i: usize, change: impl FnOnce(&mut RodCell) -> T) -> T {
+        Self::change(self, i, change)
     }
 
     fn add(&mut self, cell: RodCell) {

@@ -2,7 +2,7 @@
 
 use super::{mesh, run::Rod};
 use crate::{
-    fdm::{audit::REST_FRACTION, grid::Cells, warnings::warn_of_material},
+    fdm::{audit::REST_FRACTION, warnings::warn_of_material},
     options::ChainOptions,
     outcome::{Outcome, RunResult, Termination},
     scenario::TargetBody,
@@ -34,7 +34,7 @@ pub(super) fn complete(rod: &Rod<'_>, result: &mut RunResult, monitor: &RunMonit
             .segments
             .iter()
             .filter(move |s| bodies.contains(&s.body));
-        own.flat_map(|segment| segment.cells.clone().map(|c| grid.cells.cell(c)))
+        own.flat_map(|segment| segment.cells.clone().map(|c| grid.cells.get(c)))
     };
     result.permanent_depth = match scenario.target {
         TargetBody::Layers { .. } => {
