@@ -88,7 +88,7 @@ fn eight(all: &[f64], first: usize) -> Lanes {
     numbers
 }
 
-/// A block with elements that flow, or flowed in the last step.
+/// A block with elements that flow, flowed in the last step, or are viscous.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WorkingBlock {
     block: usize,
@@ -98,6 +98,9 @@ pub(super) struct WorkingBlock {
     flows: Lanes,
     /// Plastic strains of the last step.
     steps_before: Lanes,
+    /// Those that move, or did so in the last step, and the speeds at which their ends approach [m/s].
+    awake: LaneFlags,
+    approaches: Lanes,
 }
 
 impl State {
@@ -149,12 +152,10 @@ impl State {
         found: &mut Found,
     ) -> Result<(), usize> {
         let part = &self.parts[segment.part];
-        let is_logarithmic = part.kinematics == Kinematics::Logarithmic;
         let elements = segment.elements();
         let limit = limit.filter(|limit| limit.element == elements.start);
-        // What has a law with known equations is computed side by side, in logarithmic strain.
+        // What has a law with known equations is computed side by side.
         let law = part.strength.in_lanes();
-        let law = law.filter(|_| is_logarithmic && !control.is_viscous());
         let alone = match law {
             Some(_) => usize::from(limit.is_some()),
             None => elements.len(),
@@ -180,9 +181,13 @@ impl State {
             elements: elements.start + alone..elements.end,
             working: &mut self.working,
             part,
+            control,
             time_step,
         };
-        drift.bear(found)?;
+        match part.kinematics {
+            Kinematics::Logarithmic => drift.bear::<false>(found)?,
+            Kinematics::SmallStrain => drift.bear::<true>(found)?,
+        }
         if let Some(law) = law {
             drift.flow(&law);
         }
@@ -249,13 +254,14 @@ struct SegmentDrift<'a> {
     elements: Range<usize>,
     working: &'a mut Vec<WorkingBlock>,
     part: &'a Section,
+    control: &'a StepControl,
     time_step: f64,
 }
 
 impl SegmentDrift<'_> {
     /// Brings the elements to where their ends are, as if nothing flowed. Fails with the number of one that is compressed to nothing.
     #[inline(always)]
-    fn bear(&mut self, found: &mut Found) -> Result<(), usize> {
+    fn bear<const SMALL_STRAIN: bool>(&mut self, found: &mut Found) -> Result<(), usize> {
         self.working.clear();
         let part = self.part;
         let mut fastest = Lanes::all(0.0);
@@ -267,9 +273,9 @@ impl SegmentDrift<'_> {
             let from = eight(&self.nodes.velocity, first);
             let to = eight(&self.nodes.velocity, first + 1);
             let moves = |l: usize| (from[l] != 0.0) | (to[l] != 0.0);
-            if !any(&flags(|l| {
-                own.0[l] & (moves(l) | !block.lane(l).is_settled())
-            })) {
+            let is_awake = |l: usize| own.0[l] & (moves(l) | !block.lane(l).is_settled());
+            let awake = flags(is_awake);
+            if !any(&awake) {
                 // Where no wave has come, or border shear holds, nothing changes.
                 let stable = stable_steps(block, part);
                 for l in 0..LANES {
@@ -286,21 +292,37 @@ impl SegmentDrift<'_> {
             let (advance, advance_step) = (block.advance, block.advance_step);
             let (volume, elastic_to) = (block.volume, block.yield_point.elastic_to());
             let steps_before = block.plastic.step;
+            let (rest_length, rest_area) = (block.rest_length, block.rest_area);
             let mut borne = Borne::<Lanes>::default();
             for l in 0..LANES {
                 let length = front[l] - back[l] + advance[l];
                 let closing = from[l] - to[l];
                 let mut spring = before.lane(l);
-                let elastic = log_ratio(spring.unloaded_length, length);
+                let elastic = if SMALL_STRAIN {
+                    (rest_length[l] - length) / rest_length[l] - axial[l]
+                } else {
+                    log_ratio(spring.unloaded_length, length)
+                };
                 spring.bear(part.modulus * elastic);
-                let stable = spring.stable_step(length, part.compliance, part.slowness);
-                let rate = approach_rate(closing - advance_step[l] / self.time_step, length);
+                let [force, stable] = if SMALL_STRAIN {
+                    [spring.stress * rest_area[l], rest_length[l] * part.slowness]
+                } else {
+                    let stable = spring.stable_step(length, part.compliance, part.slowness);
+                    [spring.force(volume[l], length), stable]
+                };
+                let approach = closing - advance_step[l] / self.time_step;
+                let rate = if SMALL_STRAIN {
+                    0.0
+                } else {
+                    approach_rate(approach, length)
+                };
                 let flows = own.0[l] & (spring.stress.abs() > elastic_to[l]);
                 let one = Borne {
                     length,
                     strain: axial[l] + elastic,
                     stress: spring.stress,
-                    force: spring.force(volume[l], length),
+                    force,
+                    approach,
                     flows: if flows { 1.0 } else { 0.0 },
                     works: if flows | (own.0[l] & (steps_before[l] != 0.0)) {
                         1.0
@@ -333,12 +355,14 @@ impl SegmentDrift<'_> {
                 let strain = if own { borne.strain[l].abs() } else { 0.0 };
                 largest_strain[l] = larger(strain, largest_strain[l]);
             }
-            if any(&borne.works) {
+            if any(&borne.works) || self.control.is_viscous() {
                 self.working.push(WorkingBlock {
                     block: b,
                     own,
                     flows: borne.flows,
                     steps_before,
+                    awake: LaneFlags(awake.map(|awake| awake > 0.0)),
+                    approaches: borne.approach,
                 });
                 continue;
             }
@@ -367,9 +391,10 @@ impl SegmentDrift<'_> {
         }
     }
 
-    /// Settles the blocks in which something flows, or flowed in the last step.
+    /// Settles the blocks in which something flows, flowed in the last step, or is viscous.
     #[inline(always)]
     fn settle(&mut self, plastic_work: &mut f64, found: &mut Found) {
+        let (part, is_viscous) = (self.part, self.control.is_viscous());
         for working in &*self.working {
             let (block, own) = (&mut self.blocks[working.block], working.own);
             let (spring, volume, length) = (block.spring, block.volume, block.length);
@@ -377,12 +402,22 @@ impl SegmentDrift<'_> {
             let mut work = Lanes::all(0.0);
             for l in 0..LANES {
                 let (one, before) = (spring.lane(l), block.axial_force[l]);
-                let force = one.force(volume[l], length[l]);
+                let force = match part.kinematics {
+                    Kinematics::Logarithmic => one.force(volume[l], length[l]),
+                    Kinematics::SmallStrain => one.stress * block.rest_area[l],
+                };
                 block.axial_force.choose(l, own.0[l], force, before);
                 let done = volume[l] * one.plastic_work(working.steps_before[l], steps[l]);
                 work[l] = if own.0[l] { done } else { 0.0 };
             }
-            let stable = stable_steps(block, self.part);
+            let mut stable = stable_steps(block, part);
+            if is_viscous {
+                for l in (0..LANES).filter(|l| working.awake.0[*l]) {
+                    let mut one = block.lane(l);
+                    stable[l] *= self.control.damp(&mut one, part, working.approaches[l]);
+                    block.viscous_force[l] = one.viscous_force;
+                }
+            }
             for l in 0..LANES {
                 *plastic_work += work[l];
                 found.allow(if own.0[l] { stable[l] } else { f64::INFINITY });
@@ -403,18 +438,25 @@ percuss_core::per_lane! {
         flows: R,
         works: R,
         inverted: R,
-        /// Speed at which its ends approach or part, as a part of its length [1/s].
+        /// Speed at which its ends approach [m/s].
+        approach: R,
+        /// Speed at which they approach or part, as a part of its length [1/s].
         rate: R,
         /// Stable time step [s].
         stable: R,
     }
 }
 
-/// Stable time steps of the elements of a block in logarithmic strain [s].
+/// Stable time steps of the elements of a block, without viscosity [s].
 #[inline(always)]
 fn stable_steps(block: &Element<Lanes>, part: &Section) -> Lanes {
-    let (spring, length) = (block.spring, block.length);
-    lanes(|l| (spring.lane(l)).stable_step(length[l], part.compliance, part.slowness))
+    let (spring, length, rest_length) = (block.spring, block.length, block.rest_length);
+    match part.kinematics {
+        Kinematics::Logarithmic => {
+            lanes(|l| (spring.lane(l)).stable_step(length[l], part.compliance, part.slowness))
+        }
+        Kinematics::SmallStrain => lanes(|l| rest_length[l] * part.slowness),
+    }
 }
 
 /// Lets those elements flow that do.

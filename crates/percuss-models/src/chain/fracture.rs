@@ -9,6 +9,7 @@ use super::{
 };
 use crate::{
     Refusal,
+    lanes::LANES,
     material::FailureState,
     scenario::{Scenario, TargetBody},
 };
@@ -42,18 +43,18 @@ impl State {
             // The column is held sideways: σ = k Y and σ − σ_r = Y give a mean stress of (k − 2/3) Y.
             let triaxiality = part.constraint - 2.0 / 3.0;
             for e in segment.elements() {
-                self.elements.change(e, |element| {
-                    element.damage = law.damage(
-                        element.damage,
-                        &FailureState {
-                            tension: -element.spring.stress,
-                            triaxiality: triaxiality.copysign(-element.spring.stress),
-                            plastic_strain_increment: element.plastic.step.abs(),
-                            temperature: element.plastic.temperature,
-                        },
-                        time_step,
-                    );
-                });
+                let (block, l) = (&mut self.elements.blocks_mut()[e / LANES], e % LANES);
+                let stress = block.spring.stress[l];
+                block.damage[l] = law.damage(
+                    block.damage[l],
+                    &FailureState {
+                        tension: -stress,
+                        triaxiality: triaxiality.copysign(-stress),
+                        plastic_strain_increment: block.plastic.step[l].abs(),
+                        temperature: block.plastic.temperature[l],
+                    },
+                    time_step,
+                );
             }
         }
     }
@@ -101,6 +102,10 @@ impl State {
     /// The element ahead of the node of a segment that has failed most, if one has.
     fn weakest(&self, s: usize) -> Option<usize> {
         let elements = self.segments[s].elements();
+        let damage = |e| self.elements.part(e, |block| &block.damage);
+        if elements.clone().all(|e| damage(e) < 1.0) {
+            return None;
+        }
         (elements.start + 1..elements.end)
             .filter(|&e| self.fails(e - 1, e))
             .max_by(|&a, &b| {
