@@ -29,6 +29,11 @@ const WORK: WorkRate = WorkRate {
     bytes: 1000.0,
     rate: 55e6,
 };
+/// The same in the geometry `planar`: Johnson–Cook metals 2e6, Steinberg–Guinan ones 5e6.
+const PLANAR_WORK: WorkRate = WorkRate {
+    bytes: 1000.0,
+    rate: 3e6,
+};
 /// Duration of a rod's run in times of waves and of the expected stop: that of 80 % of random cases within a factor of 1.6.
 const ROD_DURATION: [f64; 2] = [3.0, 0.75];
 
@@ -78,7 +83,11 @@ impl Model for Fdm {
 
     fn estimate(&self, scenario: &Scenario) -> Estimate {
         let (rod, target) = elements(scenario);
-        let work = WORK.of(f64::from(rod) + f64::from(target));
+        let rate = match scenario.options.fdm.geometry {
+            Geometry::Planar => PLANAR_WORK,
+            Geometry::Rod => WORK,
+        };
+        let work = rate.of(f64::from(rod) + f64::from(target));
         let (time_step, end, limits) = match scenario.options.fdm.geometry {
             Geometry::Planar => {
                 let (time_step, limits) = planar::expected(scenario);
