@@ -54,6 +54,7 @@ fn elements_side_by_side_have_the_bits_of_each_by_itself() {
 /// Drifts elements 3 to 21 of a chain, which fill neither their first nor their last block, and leaves the others alone.
 fn drift_both_ways(metal: &str, options: &str) {
     const TIME_STEP: f64 = 1e-8;
+    const EXACT: f64 = (1_u64 << 40) as f64;
     let (mut state, control) = chain(metal, options);
     let part = &state.parts[0];
     let law = part.strength.in_lanes().unwrap();
@@ -67,10 +68,16 @@ fn drift_both_ways(metal: &str, options: &str) {
             let size = 0.12 * ((step * 7 + i * 5) % 29) as f64 / 29.0;
             let strain = size * if step % 4 < 2 { -1.0 } else { 1.0 };
             state.nodes.position[i] = position;
-            // Some stand still, beside what moves.
-            let stands = (step + i / 5) % 3 == 0;
-            state.nodes.velocity[i] = if stands { 0.0 } else { strain * 1e3 };
-            position += alone.get(i).rest_length * (1.0 + strain);
+            // Some stand still, and keep their distances, beside what moves.
+            let stands = |i: usize| step > 0 && (step + i / 5) % 3 == 0;
+            state.nodes.velocity[i] = if stands(i) { 0.0 } else { strain * 1e3 };
+            let one = alone.get(i);
+            position += if stands(i) && stands(i + 1) {
+                one.length
+            } else {
+                // Sums of such numbers are exact.
+                (one.rest_length * (1.0 + strain) * EXACT).round() / EXACT
+            };
         }
         let new = || Found {
             stable_step: f64::INFINITY,
