@@ -69,7 +69,7 @@ fn drift_both_ways(metal: &str, options: &str) {
             let strain = size * if step % 4 < 2 { -1.0 } else { 1.0 };
             state.nodes.position[i] = position;
             // Some stand still, and keep their distances, beside what moves.
-            let stands = |i: usize| step > 0 && (step + i / 5) % 3 == 0;
+            let stands = |i: usize| step > 0 && (step + i / 5).is_multiple_of(3);
             state.nodes.velocity[i] = if stands(i) { 0.0 } else { strain * 1e3 };
             let one = alone.get(i);
             position += if stands(i) && stands(i + 1) {
