@@ -330,13 +330,12 @@ pub fn any<R: Real>(numbers: &R) -> bool {
 /// A bit for each lane that has a 1 and not a 0.
 #[inline(always)]
 pub fn bits_of(flags: &Lanes) -> u8 {
-    let mut bits = [0; LANES];
-    for (l, bit) in bits.iter_mut().enumerate() {
-        *bit = if flags[l] > 0.0 { 1 << l } else { 0 };
+    let mut bits = 0;
+    for l in 0..LANES {
+        // The exponent of 1 has more ones than there are lanes.
+        bits |= (flags[l].to_bits() >> 52) & (1 << l);
     }
-    // In memory: a compiler would look for them in single lanes.
-    let [a, b, c, d, e, f, g, h]: [u64; LANES] = settled(bits);
-    (((a | e) | (c | g)) | ((b | f) | (d | h))) as u8
+    bits as u8
 }
 
 /// The larger of two numbers of which neither is undefined.

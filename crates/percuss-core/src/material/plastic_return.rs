@@ -2,25 +2,58 @@
 
 use super::{LaneStrength, LaneTrial, YieldPoint};
 use crate::{
-    lanes::{PerLane, Real, any, larger, smaller},
+    lanes::{PerLane, Real, any, larger, settled, smaller},
     power::exponential,
 };
 
-/// Excess of stress, as a part of the trial stress, from which one more Newton step may be the last.
+/// Excess of stress, as a part of the trial stress, from which one more step may be the last.
 const LARGEST_EXCESS: f64 = 1e-4;
-/// What the last Newton step may leave of it, as a part of the trial stress.
+/// The same of a law whose curvature is known: what the step leaves is bounded anyhow.
+const LARGEST_KNOWN_EXCESS: f64 = 1e-2;
+/// What the last step may leave of it, as a part of the trial stress.
 pub(super) const TOLERANCE: f64 = 1e-8;
+/// A step beyond this part of an increment is not the last one.
+const LARGEST_STEP: f64 = 0.25;
 /// A bracket halved as often as this is a point.
 const MOST_ITERATIONS: u32 = 100;
 
-/// Whether a step of Newton's method may be the last one.
+/// Stress along the ratio y of an increment to a known one: `B y + C ln y`.
 ///
-/// Powers of strain and strain rate are not more curved than slope over strain and slope over rate: `curvature` is the sum of the
-/// two, `per` times.
-#[inline(always)]
-pub fn is_last(trial: f64, excess: f64, step: f64, curvature: f64, per: f64) -> bool {
-    (excess.abs() <= LARGEST_EXCESS * trial)
-        & (0.5 * step * step * curvature <= TOLERANCE * trial * per)
+/// B is what stress and strength change over the known increment, C the part of the flow stress that grows with the logarithm of the rate.
+#[derive(Clone, Copy)]
+pub(super) struct Logarithmic {
+    pub(super) hardening: f64,
+    pub(super) rate: f64,
+}
+
+impl Logarithmic {
+    /// Ratio at which a step of Halley's method ends that has an excess of stress to take up.
+    #[inline(always)]
+    pub(super) fn step(&self, excess: f64) -> f64 {
+        let slope = self.hardening + self.rate;
+        let square = slope * slope;
+        // Not beyond twice the step of Newton's method.
+        let curved = larger(square - 0.5 * self.rate * excess, 0.5 * square);
+        1.0 + excess * slope / curved
+    }
+
+    /// Ratio at which the stress is a given one, however far: not negative, and exact at one and where it is very small.
+    #[inline(always)]
+    pub(super) fn root(&self, stress: f64) -> f64 {
+        let Self { hardening, rate } = *self;
+        let twice = 2.0 * hardening + rate;
+        let is_slower = stress < 0.0;
+        // Without hardening, and one step from there with (y − 1/y)/2 for the logarithm; or that from one.
+        let alone = exponential(smaller(stress, 0.0) / rate);
+        let slower = rate / (rate + 2.0 * hardening * alone);
+        let faster = stress * stress + twice * rate;
+        let root = (if is_slower { slower } else { faster }).sqrt();
+        if is_slower {
+            alone * root
+        } else {
+            (stress + root) / twice
+        }
+    }
 }
 
 crate::per_lane! {
@@ -29,38 +62,99 @@ crate::per_lane! {
     struct Tried<R = f64> {
         strain_slope: R,
         rate_slope: R,
-        /// Stress beyond the flow stress, and the step of Newton's method from there.
+        /// Stress beyond the flow stress.
         excess: R,
-        step: R,
-        /// 1 where that may be the last one, or 0.
-        last: R,
         increment: R,
+        /// Where the next step ends.
+        next: R,
+        /// 1 where a step of Newton's method ends at no flow, or 0.
+        stops: R,
+        /// 1 where the step may be the last one, or 0.
+        last: R,
     }
 }
 
 impl Tried {
     #[inline(always)]
-    fn of(law: &impl LaneStrength, thermal: f64, trial: &LaneTrial, increment: f64) -> Self {
+    fn of<L: LaneStrength>(law: &L, thermal: f64, trial: &LaneTrial, increment: f64) -> Self {
         let state = trial.at(increment);
         let flow = law.flow_stress(thermal, &state);
         let rate_slope = flow.rate_slope * trial.per_time;
         let excess = trial.stress - trial.modulus * increment - flow.stress;
-        let step = excess / (trial.modulus + flow.strain_slope + rate_slope);
-        let strain = state.plastic_strain;
-        let curvature = flow.strain_slope * increment + rate_slope * strain;
-        let last = is_last(trial.stress, excess, step, curvature, strain * increment);
-        Self {
+        let slope = trial.modulus + flow.strain_slope;
+        let (next, stops) = if L::LOGARITHMIC {
+            let near = Logarithmic {
+                hardening: slope * increment,
+                rate: rate_slope * increment,
+            };
+            let stops = near.hardening + near.rate + excess <= 0.0;
+            (increment * near.step(excess), stops)
+        } else {
+            let newton = increment + excess / (slope + rate_slope);
+            (newton, newton <= 0.0)
+        };
+        let mut tried = Self {
             strain_slope: flow.strain_slope,
             rate_slope: flow.rate_slope,
             excess,
-            step,
             increment,
-            last: if last & (increment + step > 0.0) {
-                1.0
-            } else {
-                0.0
-            },
+            next,
+            stops: if stops { 1.0 } else { 0.0 },
+            last: 0.0,
+        };
+        let is_last = tried.may_be_last(law, rate_slope, trial.stress, state.plastic_strain);
+        tried.last = if is_last & (next > 0.0) { 1.0 } else { 0.0 };
+        tried
+    }
+
+    /// Whether the stress that the next step leaves is small enough.
+    ///
+    /// A power of the strain is not more curved than slope over strain. From a power e of the rate, or its logarithm with e = 0, a step of
+    /// Halley's method errs by at most e/2 of its square as a part of the increment and (2 + 3 e)/6 of its cube, times slope and increment;
+    /// one of Newton's method by half the square.
+    #[inline(always)]
+    fn may_be_last<L: LaneStrength>(
+        &self,
+        law: &L,
+        rate_slope: f64,
+        trial: f64,
+        strain: f64,
+    ) -> bool {
+        let (step, increment) = (self.next - self.increment, self.increment);
+        let square = step * step;
+        if L::LOGARITHMIC {
+            let exponent = law.rate_exponent();
+            let cube = square * step.abs();
+            let of_rate = 0.5 * exponent * square * increment + (0.5 * exponent + 1.0 / 3.0) * cube;
+            let of_strain = 0.5 * square * self.strain_slope * increment * increment;
+            let left = of_strain + rate_slope * strain * of_rate;
+            (self.excess.abs() <= LARGEST_KNOWN_EXCESS * trial)
+                & (step.abs() <= LARGEST_STEP * increment)
+                & (left <= TOLERANCE * trial * strain * increment * increment)
+        } else {
+            let curvature = self.strain_slope * increment + rate_slope * strain;
+            (self.excess.abs() <= LARGEST_EXCESS * trial)
+                & (0.5 * square * curvature <= TOLERANCE * trial * strain * increment)
         }
+    }
+
+    /// Where a step ends instead of one that leaves the limits, or stops.
+    #[inline(always)]
+    fn other<L: LaneStrength>(&self, trial: &LaneTrial, [low, high]: [f64; 2]) -> f64 {
+        let increment = self.increment;
+        let factor = if L::LOGARITHMIC {
+            let far = Logarithmic {
+                hardening: (trial.modulus + self.strain_slope) * increment,
+                rate: self.rate_slope * trial.per_time * increment,
+            };
+            far.root(far.hardening + self.excess)
+        } else {
+            // Over the logarithm of the increment a rate effect is nearly straight.
+            exponential((self.next - increment) / increment)
+        };
+        let next = increment * factor;
+        let is_inside = (low < next) & (next < high);
+        if is_inside { next } else { 0.5 * (low + high) }
     }
 
     /// Where the last step ends.
@@ -84,8 +178,9 @@ impl Tried {
 /// Solves `q − M Δ = Y(ε_p + Δ, Δ/Δt, T)` for the plastic strain Δ, where `q` is the trial stress and `M` its fall per plastic strain; 0
 /// where the trial stress is elastic, and in lanes with a 0 in `places`, which stay as they are; the others have a 1.
 ///
-/// The root is bracketed by 0 and q/M and found by Newton's method, over the logarithm of Δ where a step over Δ leaves the bracket. As
-/// long as flow lasts, the slow flow stress is not needed: it is evaluated only when a body seems to have stopped flowing.
+/// The root is bracketed by 0 and q/M and found by Newton's method, or Halley's for laws with the logarithm of the rate, whose curvature is
+/// known; over the logarithm of Δ where a step leaves the bracket. As long as flow lasts, the slow flow stress is not needed: it is evaluated only when a
+/// body seems to have stopped flowing.
 ///
 /// One body or eight of the same law side by side, with the same bits; for code that has been dispatched to an instruction set. A law of
 /// one lane is that of all.
@@ -105,13 +200,16 @@ where
     let mut search = Search::start(law, point, trial, places);
     search.find_slow_points(law, point, trial);
     search.bracket(point, trial);
+    if L::One::LOGARITHMIC {
+        search.remember(point, trial);
+    }
     let mut left = MOST_ITERATIONS;
     while any(&search.open) {
         left -= 1;
         let tried = search.attempt(law, trial, left == 0);
         search.end(law, trial, &tried, (&mut *point, &mut result));
         if any(&search.open) {
-            let outside = search.narrow(&tried);
+            let outside = search.narrow::<L::One>(&tried);
             if any(&outside) {
                 search.step_inside(law, point, trial, &tried, &outside);
             }
@@ -147,10 +245,9 @@ impl<R: Real> Search<R> {
         };
         for l in 0..R::LANES {
             let trial = trial.lane(l);
-            search
-                .thermal
-                .set_lane(l, law.lane(l).thermal(trial.temperature));
-            let first = point.lane(l).tangent_increment(&trial);
+            let thermal = law.lane(l).thermal(trial.temperature);
+            let first = point.lane(l).first_increment::<L::One>(&trial);
+            search.thermal.set_lane(l, thermal);
             search.increment.set_lane(l, first);
         }
         search
@@ -170,18 +267,44 @@ impl<R: Real> Search<R> {
             let open = self.open.lane(l);
             unknown.set_lane(l, if is_unknown { open } else { 0.0 });
         }
+        let unknown = settled(unknown);
         if !any(&unknown) {
             return;
         }
+        self.set_slow_points(law, point, trial, &unknown);
+        for l in 0..R::LANES {
+            let slow = point.lane(l).tangent_increment(&trial.lane(l));
+            let first = self.increment.lane(l);
+            let is_unknown = unknown.lane(l) > 0.0;
+            self.increment
+                .set_lane(l, if is_unknown { slow } else { first });
+        }
+    }
+
+    /// Finds the slow flow stress in lanes with a 1.
+    #[inline(always)]
+    fn set_slow_points<L>(
+        &self,
+        law: &L,
+        point: &mut YieldPoint<R>,
+        trial: &LaneTrial<R>,
+        unknown: &R,
+    ) where
+        L: PerLane,
+        L::One: LaneStrength,
+    {
         let mut slow = YieldPoint::<R>::default();
         for l in 0..R::LANES {
             slow.set_lane(l, trial.lane(l).slow(&law.lane(l), self.thermal.lane(l)));
         }
         for l in 0..R::LANES {
             let before = point.lane(l);
-            point.choose(l, unknown.lane(l) > 0.0, slow.lane(l), before);
-            let first = point.lane(l).tangent_increment(&trial.lane(l));
-            self.increment.set_lane(l, first);
+            let slow = if L::One::LOGARITHMIC {
+                before.with_slow(slow.lane(l))
+            } else {
+                slow.lane(l)
+            };
+            point.choose(l, unknown.lane(l) > 0.0, slow, before);
         }
     }
 
@@ -200,7 +323,29 @@ impl<R: Real> Search<R> {
         }
     }
 
-    /// Evaluates the increments; the next step may be the last one where that of Newton's method may, or everywhere.
+    /// Starts bodies that flow again from the increment of their last flow.
+    #[inline(always)]
+    fn remember(&mut self, point: &YieldPoint<R>, trial: &LaneTrial<R>) {
+        let mut again = R::default();
+        for l in 0..R::LANES {
+            let (point, open) = (point.lane(l), self.open.lane(l));
+            let remembers = point.is_slow() & point.has_rate(&trial.lane(l));
+            again.set_lane(l, if remembers { open } else { 0.0 });
+        }
+        let again = settled(again);
+        if !any(&again) {
+            return;
+        }
+        for l in 0..R::LANES {
+            let first = self.increment.lane(l);
+            let remembered = smaller(point.lane(l).remembered_increment(&trial.lane(l)), first);
+            let is_again = again.lane(l) > 0.0;
+            self.increment
+                .set_lane(l, if is_again { remembered } else { first });
+        }
+    }
+
+    /// Evaluates the increments; the next step may be the last one where it leaves little, or everywhere.
     #[inline(always)]
     fn attempt<L>(&self, law: &L, trial: &LaneTrial<R>, must_end: bool) -> Tried<R>
     where
@@ -235,8 +380,7 @@ impl<R: Real> Search<R> {
         let (mut found, mut ends) = (R::default(), R::default());
         for l in 0..R::LANES {
             let (tried, search) = (tried.lane(l), self.lane(l));
-            let newton = search.increment + tried.step;
-            let inside = smaller(larger(newton, search.low), search.high);
+            let inside = smaller(larger(tried.next, search.low), search.high);
             found.set_lane(l, inside);
             let strain_only = law.lane(l).depends_on_strain_only();
             end.set_lane(l, tried.end(&trial.lane(l), inside, strain_only));
@@ -252,9 +396,9 @@ impl<R: Real> Search<R> {
         }
     }
 
-    /// Narrows the limits and takes a step of Newton's method; gives 1 where it leaves them and the search goes on, or 0.
+    /// Narrows the limits and takes a step; gives 1 where it leaves them or stops, and the search goes on, or 0.
     #[inline(always)]
-    fn narrow(&mut self, tried: &Tried<R>) -> R {
+    fn narrow<One: LaneStrength>(&mut self, tried: &Tried<R>) -> R {
         let mut outside = R::default();
         for l in 0..R::LANES {
             let (tried, search) = (tried.lane(l), self.lane(l));
@@ -269,14 +413,14 @@ impl<R: Real> Search<R> {
             } else {
                 search.increment
             };
-            let newton = search.increment + tried.step;
-            let is_inside = (low < newton) & (newton < high);
+            let stops = One::LOGARITHMIC & (tried.stops > 0.0);
+            let is_inside = (low < tried.next) & (tried.next < high) & !stops;
             outside.set_lane(l, if is_inside { 0.0 } else { search.open });
             self.low.set_lane(l, low);
             self.high.set_lane(l, high);
-            self.increment.set_lane(l, newton);
+            self.increment.set_lane(l, tried.next);
         }
-        outside
+        settled(outside)
     }
 
     /// Other steps instead of those that leave the limits; ends where the body turns out to be elastic.
@@ -292,47 +436,30 @@ impl<R: Real> Search<R> {
         L: PerLane,
         L::One: LaneStrength,
     {
-        for l in (0..R::LANES).filter(|l| outside.lane(*l) > 0.0) {
-            let law = law.lane(l);
-            if !self.step_lane_inside(l, &law, point, &trial.lane(l), &tried.lane(l)) {
-                self.open.set_lane(l, 0.0);
+        let mut unknown = R::default();
+        for l in 0..R::LANES {
+            let has_stopped = (tried.stops.lane(l) > 0.0) & (self.low.lane(l) == 0.0);
+            let is_unknown = has_stopped & !point.lane(l).is_slow();
+            let outside = outside.lane(l);
+            unknown.set_lane(l, if is_unknown { outside } else { 0.0 });
+        }
+        let unknown = settled(unknown);
+        if any(&unknown) {
+            self.set_slow_points(law, point, trial, &unknown);
+            for l in 0..R::LANES {
+                let is_elastic = point.lane(l).holds(trial.lane(l).stress);
+                let ends = is_elastic & (unknown.lane(l) > 0.0);
+                let open = self.open.lane(l);
+                self.open.set_lane(l, if ends { 0.0 } else { open });
             }
         }
-    }
-
-    /// Another step instead of one that leaves the limits; false where the body turns out to be elastic.
-    #[inline(always)]
-    fn step_lane_inside(
-        &mut self,
-        l: usize,
-        law: &impl LaneStrength,
-        point: &mut YieldPoint<R>,
-        trial: &LaneTrial,
-        tried: &Tried,
-    ) -> bool {
-        let Search {
-            thermal,
-            increment: newton,
-            low,
-            high,
-            ..
-        } = self.lane(l);
-        if newton <= 0.0 && low == 0.0 && !point.lane(l).is_slow() {
-            let slow = trial.slow(law, thermal);
-            point.set_lane(l, slow);
-            if slow.holds(trial.stress) {
-                return false;
-            }
+        for l in 0..R::LANES {
+            let limits = [self.low.lane(l), self.high.lane(l)];
+            let other = tried.lane(l).other::<L::One>(&trial.lane(l), limits);
+            let next = self.increment.lane(l);
+            let is_outside = outside.lane(l) > 0.0;
+            self.increment
+                .set_lane(l, if is_outside { other } else { next });
         }
-        let is_inside = |next: f64| low < next && next < high;
-        // Over the logarithm of the increment a rate effect is nearly straight.
-        let next = tried.increment * exponential(tried.step / tried.increment);
-        let next = if is_inside(next) {
-            next
-        } else {
-            0.5 * (low + high)
-        };
-        self.increment.set_lane(l, next);
-        true
     }
 }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     FlowState, FlowStress, LaneStrength, LawVisitor, PreparedStrength, plastic_increments,
+    plastic_return::Logarithmic,
 };
 use crate::lanes::{PerLane, Real};
 
@@ -89,6 +90,7 @@ crate::per_lane! {
     /// Where a body last stood on its yield surface: the next return starts there.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     pub struct YieldPoint<R: Real = f64> {
+        /// Of the last flow, as slopes and rate.
         pub(super) stress: R,
         pub(super) strain_slope: R,
         pub(super) rate_slope: R,
@@ -230,22 +232,80 @@ impl YieldPoint {
         }
     }
 
+    /// The same with a slow flow stress that is known now.
+    #[inline(always)]
+    pub(super) fn with_slow(self, slow: Self) -> Self {
+        Self {
+            elastic_to: slow.elastic_to,
+            ..self
+        }
+    }
+
     /// Increment at which the tangent of the yield surface in this point meets the trial stress.
     ///
     /// From a slow point the slope with rate is left out: it is far too steep there.
     #[inline(always)]
     pub(super) fn tangent_increment(&self, trial: &LaneTrial) -> f64 {
         let rate_slope = if self.is_slow() { 0.0 } else { self.rate_slope };
-        (trial.stress - self.stress + rate_slope * self.strain_rate)
+        let stress = one_stress(self.stress, self.elastic_to);
+        (trial.stress - stress + rate_slope * self.strain_rate)
             / (trial.modulus + self.strain_slope + rate_slope * trial.per_time)
     }
+
+    /// Whether the rate has made a difference in the last flow.
+    #[inline(always)]
+    pub(super) fn has_rate(&self, trial: &LaneTrial) -> bool {
+        self.rate_slope * self.strain_rate * trial.per_time > 0.0
+    }
+
+    /// Increment at the rate of the last flow, and the stress along others.
+    #[inline(always)]
+    fn logarithmic(&self, trial: &LaneTrial) -> (f64, Logarithmic) {
+        let near = self.strain_rate / trial.per_time;
+        let stress = Logarithmic {
+            hardening: (trial.modulus + self.strain_slope) * near,
+            rate: self.rate_slope * self.strain_rate,
+        };
+        (near, stress)
+    }
+
+    /// Increment from which a return to the yield surface starts; not positive where the body seems to have stopped flowing.
+    #[inline(always)]
+    pub(super) fn first_increment<L: LaneStrength>(&self, trial: &LaneTrial) -> f64 {
+        let tangent = self.tangent_increment(trial);
+        if !L::LOGARITHMIC {
+            return tangent;
+        }
+        let (near, along) = self.logarithmic(trial);
+        let excess = trial.stress - self.stress - along.hardening;
+        let curved = near * along.step(excess);
+        let is_curved = self.has_rate(trial) & (tangent > 0.0) & !self.is_slow();
+        if is_curved { curved } else { tangent }
+    }
+
+    /// The same of a body that flows again, from its last flow.
+    #[inline(always)]
+    pub(super) fn remembered_increment(&self, trial: &LaneTrial) -> f64 {
+        let (near, along) = self.logarithmic(trial);
+        near * along.root(trial.stress - self.stress)
+    }
+}
+
+/// The slow flow stress where it is known, or the last one.
+#[inline(always)]
+fn one_stress(last: f64, slow: f64) -> f64 {
+    if slow > f64::NEG_INFINITY { slow } else { last }
 }
 
 impl<R: Real> YieldPoint<R> {
     /// Flow stress [Pa].
     #[inline(always)]
     pub fn stress(&self) -> R {
-        self.stress
+        let mut stress = R::default();
+        for l in 0..R::LANES {
+            stress.set_lane(l, one_stress(self.stress.lane(l), self.elastic_to.lane(l)));
+        }
+        stress
     }
 
     /// Says that the state has changed without flow, and the flow stress with it.

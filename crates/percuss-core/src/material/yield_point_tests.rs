@@ -1,9 +1,14 @@
+use std::cell::Cell;
+
 use pulp::{Arch, NullaryFnOnce};
 
 use super::*;
 use crate::{
     lanes::{LANES, Lanes, lanes},
-    material::{LaneLaw, LawKind, Material, plastic_return::TOLERANCE},
+    material::{
+        JohnsonCookLaw, LaneLaw, LawKind, Material,
+        plastic_return::{Logarithmic, TOLERANCE},
+    },
 };
 
 const MODULUS: f64 = 200e9;
@@ -296,6 +301,120 @@ fn bits(point: &YieldPoint) -> [u64; 5] {
         elastic_to,
     } = *point;
     [stress, strain_slope, rate_slope, strain_rate, elastic_to].map(f64::to_bits)
+}
+
+/// A Johnson–Cook law that counts how often its flow stress is asked for.
+#[derive(Clone, Copy)]
+struct Counted<'a> {
+    law: JohnsonCookLaw,
+    evaluations: &'a Cell<u32>,
+}
+
+impl LaneStrength for Counted<'_> {
+    const LOGARITHMIC: bool = true;
+
+    fn rate_exponent(&self) -> f64 {
+        self.law.rate_exponent()
+    }
+
+    fn thermal(&self, temperature: f64) -> f64 {
+        self.law.thermal(temperature)
+    }
+
+    fn flow_stress(&self, thermal: f64, state: &FlowState) -> FlowStress {
+        self.evaluations.set(self.evaluations.get() + 1);
+        self.law.flow_stress(thermal, state)
+    }
+
+    fn depends_on_strain_only(&self) -> bool {
+        false
+    }
+}
+
+impl PerLane for Counted<'_> {
+    type One = Self;
+
+    fn lane(&self, _: usize) -> Self {
+        *self
+    }
+
+    fn set_lane(&mut self, _: usize, one: Self) {
+        *self = one;
+    }
+
+    fn choose(&mut self, _: usize, is_so: bool, yes: Self, no: Self) {
+        *self = if is_so { yes } else { no };
+    }
+}
+
+#[test]
+fn a_rate_that_changes_takes_one_evaluation_and_a_new_start_few() {
+    let strength = "johnson_cook = { a = '300 MPa', b = '500 MPa', n = 0.3, c = 0.02, m = 1.0, reference_rate = '1 1/s' }";
+    let prepared = prepared(strength);
+    let Some(LaneLaw::JohnsonCook(law)) = prepared.in_lanes() else {
+        panic!("a Johnson-Cook law has its equations in lanes");
+    };
+    let evaluations = Cell::new(0);
+    let law = Counted {
+        law,
+        evaluations: &evaluations,
+    };
+    let mut now = state();
+    let mut point = YieldPoint::default();
+    let mut flow = |expected: f64, stress: Option<f64>| {
+        let on_surface = MODULUS * expected + flow_stress(&*prepared, &now, expected);
+        let stress = stress.unwrap_or(on_surface);
+        evaluations.set(0);
+        let trial = LaneTrial::new(&now, &trial(stress));
+        let increment = plastic_increments(&law, &mut point, &trial, &1.0);
+        let bound = 2.0 * TOLERANCE * stress / MODULUS;
+        assert!(
+            (increment - expected).abs() < bound,
+            "{increment} {expected}"
+        );
+        now.plastic_strain += increment;
+        evaluations.get()
+    };
+    flow(1e-4, None);
+    for expected in [1e-4, 1.3e-4, 1e-4, 0.75e-4, 1e-4] {
+        assert_eq!(flow(expected, None), 1, "{expected}");
+    }
+    // What asks for the slow flow stress is one of these.
+    for (expected, most) in [(5e-6, 3), (1e-7, 3), (4e-4, 5)] {
+        let evaluations = flow(expected, None);
+        assert!(evaluations <= most, "{expected}: {evaluations}");
+    }
+    assert_eq!(flow(0.0, Some(100e6)), 1);
+    assert_eq!(flow(0.0, Some(50e6)), 0);
+    assert!(flow(1e-6, None) <= 2);
+}
+
+#[test]
+fn the_ratio_along_a_logarithm_is_positive_and_that_of_the_equation_where_it_is_near_one_or_small()
+{
+    for [hardening, rate] in [[1.0, 0.01], [1.0, 1.0], [0.01, 1.0]] {
+        let along = Logarithmic { hardening, rate };
+        let stress = |ratio: f64| hardening * ratio + rate * ratio.ln();
+        for ratio in [1.0_f64, 1.0 + 1e-3, 1.0 - 1e-3, 1e-6, 1e-9] {
+            let step = along.step(stress(ratio) - hardening);
+            let cube = (ratio - 1.0).abs().powi(3);
+            let is_near = ratio > 0.5;
+            assert!(!is_near || (step - ratio).abs() <= cube / 3.0 + 1e-15);
+            let root = along.root(stress(ratio));
+            let bound = if is_near {
+                cube
+            } else {
+                4.0 * hardening / rate * ratio
+            };
+            assert!(
+                root > 0.0 && (root / ratio - 1.0).abs() <= bound + 1e-12,
+                "{hardening} {rate} {ratio}: {root}"
+            );
+        }
+        for excess in [-500.0, -1.0, 1.0, 500.0] {
+            assert!(along.root(hardening + excess * rate) > 0.0);
+        }
+    }
 }
 
 #[test]

@@ -489,11 +489,9 @@ impl LawVisitor<f64> for FlowTogether<'_> {
                 spring: block.spring,
                 plastic: block.plastic,
                 points: block.yield_point,
-                constants,
-                law: *law,
                 per_time: Lanes::all(1.0 / self.time_step),
             };
-            flowing.flow(&working.flows);
+            flowing.flow(law, &constants, &working.flows);
             block.spring = flowing.spring;
             block.plastic = flowing.plastic;
             block.yield_point = flowing.points;

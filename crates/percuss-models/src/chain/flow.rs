@@ -5,7 +5,7 @@ use super::{
     part::Section,
 };
 use crate::{
-    lanes::{LANES, Lanes, PerLane},
+    lanes::{LANES, Lanes, PerLane, lanes},
     material::{LaneStrength, LaneTrial, YieldPoint, plastic_increments},
 };
 
@@ -31,49 +31,45 @@ impl FlowConstants {
     }
 }
 
-/// Eight elements that flow, of bodies with the same law.
+/// Eight elements that flow, of bodies whose laws have the same equations.
 #[derive(Clone, Copy, Default)]
-pub(super) struct FlowingElements<L> {
+pub(super) struct FlowingElements {
     pub(super) spring: Spring<Lanes>,
     pub(super) plastic: Plastic<Lanes>,
     pub(super) points: YieldPoint<Lanes>,
-    pub(super) constants: FlowConstants<Lanes>,
-    pub(super) law: L,
     /// Inverse of the time step [1/s].
     pub(super) per_time: Lanes,
 }
 
-impl<L> FlowingElements<L>
-where
-    L: PerLane,
-    L::One: LaneStrength,
-{
+impl FlowingElements {
     /// Returns the trial stresses to the yield surface in places with a 1; what is in those with a 0 stays as it is.
     #[inline(always)]
-    pub(super) fn flow(&mut self, places: &Lanes) {
-        let (spring, plastic, constants) = (self.spring, self.plastic, self.constants);
-        let per_time = self.per_time;
-        let mut trial = LaneTrial::<Lanes>::default();
-        for p in 0..LANES {
-            let (stress, constants) = (spring.stress.0[p], constants.lane(p));
-            trial.set_lane(
-                p,
-                LaneTrial {
-                    stress: stress.abs(),
-                    modulus: constants.modulus,
-                    pressure_fall: constants.modulus.copysign(stress) / 3.0,
-                    per_time: per_time.0[p] * constants.rate_effects,
-                    plastic_strain: plastic.strain.0[p],
-                    temperature: plastic.temperature.0[p],
-                    pressure: stress / 3.0,
-                },
-            );
-        }
-        let increment = plastic_increments(&self.law, &mut self.points, &trial, places);
+    pub(super) fn flow<L>(&mut self, law: &L, constants: &FlowConstants<Lanes>, places: &Lanes)
+    where
+        L: PerLane,
+        L::One: LaneStrength,
+    {
+        let (spring, plastic) = (self.spring, self.plastic);
+        let (stress, per_time) = (spring.stress, self.per_time);
+        let FlowConstants {
+            modulus,
+            heating,
+            rate_effects,
+        } = constants;
+        let trial = LaneTrial {
+            stress: lanes(|p| stress[p].abs()),
+            modulus: *modulus,
+            pressure_fall: lanes(|p| modulus[p].copysign(stress[p]) / 3.0),
+            per_time: lanes(|p| per_time[p] * rate_effects[p]),
+            plastic_strain: plastic.strain,
+            temperature: plastic.temperature,
+            pressure: lanes(|p| stress[p] / 3.0),
+        };
+        let increment = plastic_increments(law, &mut self.points, &trial, places);
         let (mut flowed, mut strained) = (spring, plastic);
         for p in 0..LANES {
             let (mut next, mut strain) = (spring.lane(p), plastic.lane(p));
-            let constants = [constants.modulus.0[p], constants.heating.0[p]];
+            let constants = [modulus[p], heating[p]];
             next.flow_by(increment.0[p], &mut strain, constants, per_time.0[p]);
             let flows = increment.0[p] != 0.0;
             flowed.choose(p, flows, next, spring.lane(p));

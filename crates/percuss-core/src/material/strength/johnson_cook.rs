@@ -102,6 +102,13 @@ impl JohnsonCookLaw {
 }
 
 impl LaneStrength for JohnsonCookLaw {
+    const LOGARITHMIC: bool = true;
+
+    #[inline(always)]
+    fn rate_exponent(&self) -> f64 {
+        0.0
+    }
+
     #[inline(always)]
     fn thermal(&self, temperature: f64) -> f64 {
         self.softening(temperature)
@@ -126,6 +133,13 @@ impl LaneStrength for JohnsonCookLaw {
 }
 
 impl LaneStrength for ModifiedJohnsonCookLaw {
+    const LOGARITHMIC: bool = true;
+
+    #[inline(always)]
+    fn rate_exponent(&self) -> f64 {
+        self.law.c
+    }
+
     #[inline(always)]
     fn thermal(&self, temperature: f64) -> f64 {
         self.law.softening(temperature)

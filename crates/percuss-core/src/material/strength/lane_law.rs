@@ -12,6 +12,14 @@ use crate::lanes::{PerLane, Real};
 /// Equations of a strength law, for code that has been dispatched to an instruction set: sums, products and fused multiply-adds without
 /// branches, so that a loop over eight lanes becomes vector instructions.
 pub trait LaneStrength: Copy {
+    /// Whether the flow stress grows with the logarithm of the strain rate, or a power of it that is close to it.
+    const LOGARITHMIC: bool = false;
+
+    /// Exponent of the strain rate; 0 for a logarithm, 1 for what is not known.
+    fn rate_exponent(&self) -> f64 {
+        1.0
+    }
+
     /// What the flow stress owes to the temperature [K]: it stays the same during a return.
     fn thermal(&self, temperature: f64) -> f64;
 

@@ -2,7 +2,7 @@
 
 use super::{bundle::Bundle, step::Step};
 use crate::{
-    chain::flow::FlowingElements,
+    chain::flow::{FlowConstants, FlowingElements},
     lanes::{LANES, Lanes, PerLane},
     material::LaneStrength,
 };
@@ -24,11 +24,9 @@ impl Bundle {
             spring: self.springs[e],
             plastic: self.plastics[e],
             points: self.points[e],
-            constants: self.bodies[b].flow,
-            law: *law,
             per_time: step.rate,
         };
-        flowing.flow(lanes);
+        flowing.flow(law, &self.bodies[b].flow, lanes);
         self.springs[e] = flowing.spring;
         self.plastics[e] = flowing.plastic;
         self.points[e] = flowing.points;
@@ -61,17 +59,19 @@ impl Bundle {
     {
         let places = &self.gathered[first..first + LANES];
         let constants = &self.bodies[b].flow;
-        let mut flowing = FlowingElements::<L>::default();
+        let mut flowing = FlowingElements::default();
+        let mut laws = L::default();
+        let mut its_constants = FlowConstants::<Lanes>::default();
         for (p, &(element, lane)) in places.iter().enumerate() {
             let (e, l) = (element as usize, lane as usize % LANES);
             flowing.spring.set_lane(p, self.springs[e].lane(l));
             flowing.plastic.set_lane(p, self.plastics[e].lane(l));
             flowing.points.set_lane(p, self.points[e].lane(l));
-            flowing.constants.set_lane(p, constants.lane(l));
-            flowing.law.set_lane(p, law.lane(l));
+            its_constants.set_lane(p, constants.lane(l));
+            laws.set_lane(p, law.lane(l));
             flowing.per_time.set_lane(p, step.rate.lane(l));
         }
-        flowing.flow(&Lanes::all(1.0));
+        flowing.flow(&laws, &its_constants, &Lanes::all(1.0));
         for (p, &(element, lane)) in places.iter().enumerate() {
             let (e, l) = (element as usize, lane as usize % LANES);
             self.springs[e].set_lane(l, flowing.spring.lane(p));
