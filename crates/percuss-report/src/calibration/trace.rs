@@ -63,7 +63,7 @@ pub(super) fn figure(sample: &Sample, columns: &[ParameterColumn]) -> Figure {
             drawing.curve(places, color, r#"stroke-width="1" stroke-opacity="0.8""#);
         }
         let last = row + 1 == columns.len();
-        panel.frame(&mut drawing, last.then_some("step"), Some(&column.label));
+        panel.frame(&mut drawing, last.then_some("Step"), Some(&column.label));
     }
     let caption = format!(
         "one of {} walkers per ensemble, {} ensembles; grey: burn-in",
