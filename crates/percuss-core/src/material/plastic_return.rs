@@ -1,6 +1,6 @@
 //! Return of trial stresses to the yield surface: of one body, or of eight side by side.
 
-use super::{LaneStrength, LaneTrial, YieldPoint};
+use super::{FlowState, LaneStrength, LaneTrial, YieldPoint};
 use crate::{
     lanes::{PerLane, Real, any, larger, settled, smaller},
     power::exponential,
@@ -102,7 +102,7 @@ impl Tried {
             stops: if stops { 1.0 } else { 0.0 },
             last: 0.0,
         };
-        let is_last = tried.may_be_last(law, rate_slope, trial.stress, state.plastic_strain);
+        let is_last = tried.may_be_last(law, rate_slope, trial.stress, &state);
         tried.last = if is_last & (next > 0.0) { 1.0 } else { 0.0 };
         tried
     }
@@ -118,12 +118,13 @@ impl Tried {
         law: &L,
         rate_slope: f64,
         trial: f64,
-        strain: f64,
+        state: &FlowState,
     ) -> bool {
+        let strain = state.plastic_strain;
         let (step, increment) = (self.next - self.increment, self.increment);
         let square = step * step;
         if L::LOGARITHMIC {
-            let exponent = law.rate_exponent();
+            let exponent = law.rate_exponent(state.strain_rate);
             let cube = square * step.abs();
             let of_rate = 0.5 * exponent * square * increment + (0.5 * exponent + 1.0 / 3.0) * cube;
             let of_strain = 0.5 * square * self.strain_slope * increment * increment;
@@ -140,7 +141,7 @@ impl Tried {
 
     /// Where a step ends instead of one that leaves the limits, or stops.
     #[inline(always)]
-    fn other<L: LaneStrength>(&self, trial: &LaneTrial, [low, high]: [f64; 2]) -> f64 {
+    fn fallback<L: LaneStrength>(&self, trial: &LaneTrial, [low, high]: [f64; 2]) -> f64 {
         let increment = self.increment;
         let factor = if L::LOGARITHMIC {
             let far = Logarithmic {
@@ -179,8 +180,8 @@ impl Tried {
 /// where the trial stress is elastic, and in lanes with a 0 in `places`, which stay as they are; the others have a 1.
 ///
 /// The root is bracketed by 0 and q/M and found by Newton's method, or Halley's for laws with the logarithm of the rate, whose curvature is
-/// known; over the logarithm of Δ where a step leaves the bracket. As long as flow lasts, the slow flow stress is not needed: it is evaluated only when a
-/// body seems to have stopped flowing.
+/// known; over the logarithm of Δ where a step leaves the bracket. As long as flow lasts, the slow flow stress is not needed: it is
+/// evaluated only when a body seems to have stopped flowing.
 ///
 /// One body or eight of the same law side by side, with the same bits; for code that has been dispatched to an instruction set. A law of
 /// one lane is that of all.
@@ -201,7 +202,7 @@ where
     search.find_slow_points(law, point, trial);
     search.bracket(point, trial);
     if L::One::LOGARITHMIC {
-        search.remember(point, trial);
+        search.start_from_last_flow(point, trial);
     }
     let mut left = MOST_ITERATIONS;
     while any(&search.open) {
@@ -323,14 +324,14 @@ impl<R: Real> Search<R> {
         }
     }
 
-    /// Starts bodies that flow again from the increment of their last flow.
+    /// Starts bodies that flow again after an elastic pause at the rate of their last flow.
     #[inline(always)]
-    fn remember(&mut self, point: &YieldPoint<R>, trial: &LaneTrial<R>) {
+    fn start_from_last_flow(&mut self, point: &YieldPoint<R>, trial: &LaneTrial<R>) {
         let mut again = R::default();
         for l in 0..R::LANES {
             let (point, open) = (point.lane(l), self.open.lane(l));
-            let remembers = point.is_slow() & point.has_rate(&trial.lane(l));
-            again.set_lane(l, if remembers { open } else { 0.0 });
+            let has_flowed = point.is_slow() & point.has_rate(&trial.lane(l));
+            again.set_lane(l, if has_flowed { open } else { 0.0 });
         }
         let again = settled(again);
         if !any(&again) {
@@ -338,10 +339,13 @@ impl<R: Real> Search<R> {
         }
         for l in 0..R::LANES {
             let first = self.increment.lane(l);
-            let remembered = smaller(point.lane(l).remembered_increment(&trial.lane(l)), first);
+            let last = smaller(
+                point.lane(l).increment_from_last_flow(&trial.lane(l)),
+                first,
+            );
             let is_again = again.lane(l) > 0.0;
             self.increment
-                .set_lane(l, if is_again { remembered } else { first });
+                .set_lane(l, if is_again { last } else { first });
         }
     }
 
@@ -455,11 +459,11 @@ impl<R: Real> Search<R> {
         }
         for l in 0..R::LANES {
             let limits = [self.low.lane(l), self.high.lane(l)];
-            let other = tried.lane(l).other::<L::One>(&trial.lane(l), limits);
+            let fallback = tried.lane(l).fallback::<L::One>(&trial.lane(l), limits);
             let next = self.increment.lane(l);
             let is_outside = outside.lane(l) > 0.0;
             self.increment
-                .set_lane(l, if is_outside { other } else { next });
+                .set_lane(l, if is_outside { fallback } else { next });
         }
     }
 }

@@ -90,7 +90,7 @@ crate::per_lane! {
     /// Where a body last stood on its yield surface: the next return starts there.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     pub struct YieldPoint<R: Real = f64> {
-        /// Of the last flow, as slopes and rate.
+        /// At the end of the last flow, as are slopes and rate.
         pub(super) stress: R,
         pub(super) strain_slope: R,
         pub(super) rate_slope: R,
@@ -247,7 +247,7 @@ impl YieldPoint {
     #[inline(always)]
     pub(super) fn tangent_increment(&self, trial: &LaneTrial) -> f64 {
         let rate_slope = if self.is_slow() { 0.0 } else { self.rate_slope };
-        let stress = one_stress(self.stress, self.elastic_to);
+        let stress = current_stress(self.stress, self.elastic_to);
         (trial.stress - stress + rate_slope * self.strain_rate)
             / (trial.modulus + self.strain_slope + rate_slope * trial.per_time)
     }
@@ -285,7 +285,7 @@ impl YieldPoint {
 
     /// The same of a body that flows again, from its last flow.
     #[inline(always)]
-    pub(super) fn remembered_increment(&self, trial: &LaneTrial) -> f64 {
+    pub(super) fn increment_from_last_flow(&self, trial: &LaneTrial) -> f64 {
         let (near, along) = self.logarithmic(trial);
         near * along.root(trial.stress - self.stress)
     }
@@ -293,7 +293,7 @@ impl YieldPoint {
 
 /// The slow flow stress where it is known, or the last one.
 #[inline(always)]
-fn one_stress(last: f64, slow: f64) -> f64 {
+fn current_stress(last: f64, slow: f64) -> f64 {
     if slow > f64::NEG_INFINITY { slow } else { last }
 }
 
@@ -303,7 +303,10 @@ impl<R: Real> YieldPoint<R> {
     pub fn stress(&self) -> R {
         let mut stress = R::default();
         for l in 0..R::LANES {
-            stress.set_lane(l, one_stress(self.stress.lane(l), self.elastic_to.lane(l)));
+            stress.set_lane(
+                l,
+                current_stress(self.stress.lane(l), self.elastic_to.lane(l)),
+            );
         }
         stress
     }

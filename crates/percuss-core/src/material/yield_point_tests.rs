@@ -313,8 +313,8 @@ struct Counted<'a> {
 impl LaneStrength for Counted<'_> {
     const LOGARITHMIC: bool = true;
 
-    fn rate_exponent(&self) -> f64 {
-        self.law.rate_exponent()
+    fn rate_exponent(&self, strain_rate: f64) -> f64 {
+        self.law.rate_exponent(strain_rate)
     }
 
     fn thermal(&self, temperature: f64) -> f64 {
@@ -387,6 +387,26 @@ fn a_rate_that_changes_takes_one_evaluation_and_a_new_start_few() {
     assert_eq!(flow(0.0, Some(100e6)), 1);
     assert_eq!(flow(0.0, Some(50e6)), 0);
     assert!(flow(1e-6, None) <= 2);
+}
+
+#[test]
+fn a_power_of_the_rate_is_met_at_rates_near_the_reference_rate_too() {
+    let law = prepared(
+        "johnson_cook = { a = '490 MPa', b = '383 MPa', n = 0.45, c = 0.06, m = 0.94, reference_rate = '1e4 1/s', rate_form = 'power' }",
+    );
+    let mut point = YieldPoint::default();
+    let mut now = state();
+    let mut worst = 0.0_f64;
+    for step in 0..400 {
+        // From a hundredth of the reference rate to ten times it, by a tenth up and down.
+        let rate = 1e4 * 10.0_f64.powf(-0.5 + 1.5 * (0.05 * f64::from(step)).sin());
+        let expected = TIME * rate;
+        let stress = MODULUS * expected + flow_stress(&*law, &now, expected);
+        let increment = point.plastic_increment(&*law, &now, &trial(stress));
+        worst = worst.max(MODULUS * (increment - expected).abs() / stress);
+        now.plastic_strain += increment;
+    }
+    assert!(worst <= 2.0 * TOLERANCE, "{worst}");
 }
 
 #[test]

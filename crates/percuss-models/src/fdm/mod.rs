@@ -29,7 +29,7 @@ const WORK: WorkRate = WorkRate {
     bytes: 1000.0,
     rate: 55e6,
 };
-/// The same in the geometry `planar`: Johnson–Cook metals 2e6, Steinberg–Guinan ones 5e6.
+/// The same in the geometry `planar`: Johnson–Cook metals 3e6, Steinberg–Guinan ones 5e6.
 const PLANAR_WORK: WorkRate = WorkRate {
     bytes: 1000.0,
     rate: 3e6,

@@ -105,7 +105,7 @@ impl LaneStrength for JohnsonCookLaw {
     const LOGARITHMIC: bool = true;
 
     #[inline(always)]
-    fn rate_exponent(&self) -> f64 {
+    fn rate_exponent(&self, _: f64) -> f64 {
         0.0
     }
 
@@ -136,8 +136,9 @@ impl LaneStrength for ModifiedJohnsonCookLaw {
     const LOGARITHMIC: bool = true;
 
     #[inline(always)]
-    fn rate_exponent(&self) -> f64 {
-        self.law.c
+    fn rate_exponent(&self, strain_rate: f64) -> f64 {
+        let ratio = strain_rate * self.law.per_rate;
+        (1.0 + self.law.c * ratio) / (1.0 + ratio)
     }
 
     #[inline(always)]

@@ -15,8 +15,10 @@ pub trait LaneStrength: Copy {
     /// Whether the flow stress grows with the logarithm of the strain rate, or a power of it that is close to it.
     const LOGARITHMIC: bool = false;
 
-    /// Exponent of the strain rate; 0 for a logarithm, 1 for what is not known.
-    fn rate_exponent(&self) -> f64 {
+    /// Exponent e of the power of the strain rate that has slope and curvature of the flow stress at a rate [1/s]: the curvature is (e − 1)
+    /// times slope over rate. 0 for a logarithm, 1 for a straight line.
+    fn rate_exponent(&self, strain_rate: f64) -> f64 {
+        let _ = strain_rate;
         1.0
     }
 

@@ -58,20 +58,20 @@ impl Bundle {
         L::One: LaneStrength,
     {
         let places = &self.gathered[first..first + LANES];
-        let constants = &self.bodies[b].flow;
+        let of_body = &self.bodies[b].flow;
         let mut flowing = FlowingElements::default();
         let mut laws = L::default();
-        let mut its_constants = FlowConstants::<Lanes>::default();
+        let mut constants = FlowConstants::<Lanes>::default();
         for (p, &(element, lane)) in places.iter().enumerate() {
             let (e, l) = (element as usize, lane as usize % LANES);
             flowing.spring.set_lane(p, self.springs[e].lane(l));
             flowing.plastic.set_lane(p, self.plastics[e].lane(l));
             flowing.points.set_lane(p, self.points[e].lane(l));
-            its_constants.set_lane(p, constants.lane(l));
+            constants.set_lane(p, of_body.lane(l));
             laws.set_lane(p, law.lane(l));
             flowing.per_time.set_lane(p, step.rate.lane(l));
         }
-        flowing.flow(&laws, &its_constants, &Lanes::all(1.0));
+        flowing.flow(&laws, &constants, &Lanes::all(1.0));
         for (p, &(element, lane)) in places.iter().enumerate() {
             let (e, l) = (element as usize, lane as usize % LANES);
             self.springs[e].set_lane(l, flowing.spring.lane(p));
