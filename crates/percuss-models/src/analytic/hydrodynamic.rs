@@ -1,6 +1,6 @@
 //! Model `hydrodynamic`: the depth that a rod without strength makes in a target without strength.
 
-use super::long_rod::{LongRod, NOT_ONE_TARGET, detail, nothing_moves};
+use super::long_rod::{LongRod, NOT_ONE_TARGET, at_rest, detail};
 use crate::{
     Error, Refusal, Scenario,
     outcome::{BandQuantity, Outcome, RunResult, Termination},
@@ -68,7 +68,7 @@ impl Model for Hydrodynamic {
         let (projectile, target) = rod.densities();
         let ratio = (projectile / target).sqrt();
         if rod.speed == 0.0 {
-            return Ok(nothing_moves(self.name()));
+            return Ok(at_rest(self.name(), "", &rod, (0.0, rod.length)));
         }
         let speed = rod.speed * ratio / (1.0 + ratio);
         let mut result = RunResult::new(

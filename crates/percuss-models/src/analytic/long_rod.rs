@@ -69,14 +69,30 @@ impl<'a> LongRod<'a> {
         }
     }
 
-    /// Length over all of a projectile of which so much of the flat-ended rod is left [m]: the nose goes first.
-    pub(super) fn length_over_all(&self, scenario: &Scenario, left: f64) -> f64 {
-        (scenario.projectile.length - (self.length - left)).max(0.0)
+    /// Sets the length over all and the mass of a projectile of which so much of the flat-ended rod is left [m].
+    pub(super) fn set_final(&self, scenario: &Scenario, left: f64, result: &mut RunResult) {
+        // The nose goes first.
+        let over_all = (scenario.projectile.length - (self.length - left)).max(0.0);
+        result.projectile_final_length = Some(over_all);
+        result.projectile_final_mass = Some(scenario.projectile.mass * left / self.length);
     }
 
     pub(super) fn densities(&self) -> (f64, f64) {
         (self.projectile.density.si(), self.target.density.si())
     }
+}
+
+/// Part of the impact velocity at which a speed counts as zero.
+pub(super) const STOPPED: f64 = 1e-7;
+/// Part of the length at which a rod counts as used up.
+pub(super) const USED_UP: f64 = 1e-7;
+
+/// Event of a rod that erodes from an impact at a speed [m/s] with a length [m]: not positive once its tail has slowed to its tip, its tip
+/// stands still, or no length is left.
+pub(super) fn erosion_ends([tail, tip, left]: [f64; 3], (speed, length): (f64, f64)) -> f64 {
+    ((tail - tip) / speed - STOPPED)
+        .min(tip / speed - STOPPED)
+        .min(left / length - USED_UP)
 }
 
 /// Why a case is none of a rod of one metal on another.
@@ -105,10 +121,22 @@ pub(super) fn never_yields(what: &str, key: &str) -> Refusal {
         .with_remedy(format!("give `{key}`, or another strength law"))
 }
 
-/// The result of a rod without velocity.
-pub(super) fn nothing_moves(model: &'static str) -> RunResult {
-    let mut result = RunResult::new(model, "", Outcome::AtRest, Termination::NothingMoves);
-    result.depth_of_penetration = Some(0.0);
+/// The result of a rod that has come to rest at a depth [m] with a length left [m].
+pub(super) fn at_rest(
+    model: &'static str,
+    reference: &'static str,
+    rod: &LongRod<'_>,
+    (depth, left): (f64, f64),
+) -> RunResult {
+    let (outcome, termination) = if rod.speed == 0.0 {
+        (Outcome::AtRest, Termination::NothingMoves)
+    } else if left == 0.0 {
+        (Outcome::ProjectileEroded, Termination::ProjectileConsumed)
+    } else {
+        (Outcome::AtRest, Termination::PenetrationStopped)
+    };
+    let mut result = RunResult::new(model, reference, outcome, termination);
+    result.depth_of_penetration = Some(depth);
     result.residual_velocity = Some(0.0);
     result
 }

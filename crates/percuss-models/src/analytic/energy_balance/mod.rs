@@ -13,13 +13,13 @@ use super::{
     cavity_expansion::effective_yield_stress,
     dynamic_yield::mean_flow_stress,
     impact_wave::ImpactWave,
-    long_rod::{LongRod, detail, never_yields, nothing_moves, rests_on, sharp_and_rigid},
+    long_rod::{LongRod, at_rest, detail, never_yields, rests_on, sharp_and_rigid},
     rod_flow::RodFlow,
 };
 use crate::{
     Error, Refusal, Scenario,
     material::Material,
-    outcome::{BandQuantity, Detail, Outcome, RunResult, Termination},
+    outcome::{BandQuantity, Detail, RunResult},
     regime::TargetKind,
     solver::{Control, Model},
     units::Pressure,
@@ -141,17 +141,10 @@ impl Model for EnergyBalance {
         let (rod, motion) = Self::motion(scenario)
             .map_err(|refusal| Error::not_applicable(self.name(), refusal))?;
         if rod.speed == 0.0 {
-            return Ok(nothing_moves(self.name()));
+            return Ok(at_rest(self.name(), "", &rod, (0.0, rod.length)));
         }
         let stop = motion.penetrate(rod.speed, rod.length)?;
-        let (outcome, termination) = if stop.length == 0.0 {
-            (Outcome::ProjectileEroded, Termination::ProjectileConsumed)
-        } else {
-            (Outcome::AtRest, Termination::PenetrationStopped)
-        };
-        let mut result = RunResult::new(self.name(), "", outcome, termination);
-        result.depth_of_penetration = Some(stop.depth);
-        result.residual_velocity = Some(0.0);
+        let mut result = at_rest(self.name(), "", &rod, (stop.depth, stop.length));
         result.time_to_rest = Some(stop.time);
         result.end_time = Some(stop.time);
         result.details = details(scenario, &motion, &stop);

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::{
     super::{
         impact_wave::ImpactWave,
-        long_rod::failure,
+        long_rod::{STOPPED, USED_UP, erosion_ends, failure},
         moving_mass::MovingMass,
         ode::{FinalState, Problem},
         rod_flow::RodFlow,
@@ -16,10 +16,6 @@ use crate::error::NumericalError;
 
 /// Error of a step as a part of the quantity.
 const TOLERANCE: f64 = 1e-12;
-/// Part of the impact velocity at which a speed counts as zero.
-const STOPPED: f64 = 1e-7;
-/// Part of the length at which a rod counts as used up.
-const USED_UP: f64 = 1e-7;
 
 /// A rod, a target and the waves of their first contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -132,9 +128,7 @@ impl Motion {
         let (speed, length) = scale;
         let energy = 0.5 * self.rod.density * self.rod.area * length * speed * speed;
         let event = |&[tail, floor, left, ..]: &State| match phase {
-            Phase::Flowing => ((tail - floor) / speed - STOPPED)
-                .min(floor / speed - STOPPED)
-                .min(left / length - USED_UP),
+            Phase::Flowing => erosion_ends([tail, floor, left], (speed, length)),
             Phase::Flattening => (tail / speed - STOPPED).min(left / length - USED_UP),
             Phase::Joined => floor,
         };

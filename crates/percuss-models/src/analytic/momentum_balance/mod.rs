@@ -9,12 +9,12 @@ use self::{motion::Motion, zone::Zone};
 use super::{
     cavity_expansion::CavityExpansion,
     impact_wave::ImpactWave,
-    long_rod::{LongRod, detail, never_yields, rests_on, sharp_and_rigid, strength},
+    long_rod::{LongRod, at_rest, detail, never_yields, rests_on, sharp_and_rigid, strength},
     rod_flow::RodFlow,
 };
 use crate::{
     Error, Refusal, Scenario,
-    outcome::{BandQuantity, Outcome, RunResult, Termination},
+    outcome::{BandQuantity, RunResult},
     regime::TargetKind,
     solver::{Control, Model},
     units::{Length, Pressure},
@@ -134,22 +134,13 @@ impl Model for MomentumBalance {
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {
         let (rod, motion) = Self::motion(scenario)
             .map_err(|refusal| Error::not_applicable(self.name(), refusal))?;
-        let still = rod.speed == 0.0;
-        let stop = match still {
+        let stop = match rod.speed == 0.0 {
             true => None,
             false => Some(motion.penetrate(rod.speed, rod.length)?),
         };
-        let left = stop.map_or(rod.length, |stop| stop.length);
-        let (outcome, termination) = match (still, left == 0.0) {
-            (true, _) => (Outcome::AtRest, Termination::NothingMoves),
-            (false, true) => (Outcome::ProjectileEroded, Termination::ProjectileConsumed),
-            (false, false) => (Outcome::AtRest, Termination::PenetrationStopped),
-        };
-        let mut result = RunResult::new(self.name(), "", outcome, termination);
-        result.depth_of_penetration = Some(stop.map_or(0.0, |stop| stop.depth));
-        result.residual_velocity = Some(0.0);
-        result.projectile_final_length = Some(rod.length_over_all(scenario, left));
-        result.projectile_final_mass = Some(scenario.projectile.mass * left / rod.length);
+        let (depth, left) = stop.map_or((0.0, rod.length), |stop| (stop.depth, stop.length));
+        let mut result = at_rest(self.name(), "", &rod, (depth, left));
+        rod.set_final(scenario, left, &mut result);
         let Some(stop) = stop else {
             return Ok(result);
         };

@@ -3,7 +3,7 @@
 use super::{
     super::{
         impact_wave::ImpactWave,
-        long_rod::failure,
+        long_rod::{STOPPED, USED_UP, erosion_ends, failure},
         moving_mass::MovingMass,
         ode::{FinalState, Problem},
         rod_flow::RodFlow,
@@ -14,10 +14,6 @@ use crate::error::NumericalError;
 
 /// Error of a step as a part of the quantity.
 const TOLERANCE: f64 = 1e-9;
-/// Part of the impact velocity at which a speed counts as zero.
-const STOPPED: f64 = 1e-7;
-/// Part of the length at which a rod counts as used up.
-const USED_UP: f64 = 1e-7;
 /// Depth in radii of the floor at which the flow starts: the zone grows from nothing.
 const FIRST_DEPTH: f64 = 1e-4;
 const BISECTIONS: u32 = 80;
@@ -137,9 +133,7 @@ impl Motion {
         (speed, length): (f64, f64),
     ) -> Result<FinalState<5>, NumericalError> {
         let event = |&[tail, floor, left, ..]: &State| match phase {
-            Phase::Flowing => ((tail - floor) / speed - STOPPED)
-                .min(floor / speed - STOPPED)
-                .min(left / length - USED_UP),
+            Phase::Flowing => erosion_ends([tail, floor, left], (speed, length)),
             Phase::Rigid | Phase::After => floor / speed,
         };
         let momentum = self.rod.density * length * speed;

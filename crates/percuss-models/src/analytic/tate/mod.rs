@@ -9,12 +9,12 @@ pub use equations::{Phase, Rods, Stop};
 
 use super::{
     deep_penetration::never_yields,
-    long_rod::{LongRod, NOT_ONE_TARGET, detail, rests_on, sharp_and_rigid, strength},
+    long_rod::{LongRod, NOT_ONE_TARGET, at_rest, detail, rests_on, sharp_and_rigid, strength},
 };
 use crate::{
     Error, Refusal, Scenario,
     material::{Material, MaterialClass, cavity_expansion_pressure},
-    outcome::{Band, BandQuantity, Outcome, RunResult, Termination},
+    outcome::{Band, BandQuantity, RunResult},
     regime::{ProjectileRegime, STRENGTH_STRAIN, TargetKind},
     solver::{Control, Model},
     units::Pressure,
@@ -182,18 +182,9 @@ impl Model for Tate {
         let rods = Self::rods(scenario).map_err(refuse)?;
         let rod = LongRod::of(scenario).ok_or_else(|| refuse(NOT_ONE_TARGET.into()))?;
         let stop = rods.penetrate(rod.speed, rod.length)?;
-        let (outcome, termination) = if rod.speed == 0.0 {
-            (Outcome::AtRest, Termination::NothingMoves)
-        } else if stop.length == 0.0 {
-            (Outcome::ProjectileEroded, Termination::ProjectileConsumed)
-        } else {
-            (Outcome::AtRest, Termination::PenetrationStopped)
-        };
-        let mut result = RunResult::new(self.name(), "alekseevskii-tate", outcome, termination);
-        result.depth_of_penetration = Some(stop.depth);
-        result.residual_velocity = Some(0.0);
-        result.projectile_final_length = Some(rod.length_over_all(scenario, stop.length));
-        result.projectile_final_mass = Some(scenario.projectile.mass * stop.length / rod.length);
+        let reached = (stop.depth, stop.length);
+        let mut result = at_rest(self.name(), "alekseevskii-tate", &rod, reached);
+        rod.set_final(scenario, stop.length, &mut result);
         // A rod that is weaker than the target goes on flattening at its face: what is left of that takes no part in the depth,
         // and its time is not followed.
         let flattens = rods.target_resistance > rods.projectile_strength

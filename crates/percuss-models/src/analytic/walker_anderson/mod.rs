@@ -11,13 +11,13 @@ use flow::Flow;
 use motion::Motion;
 
 use super::{
-    long_rod::{LongRod, detail, nothing_moves, rests_on, sharp_and_rigid, strength},
+    long_rod::{LongRod, at_rest, detail, rests_on, sharp_and_rigid, strength},
     tate::LONG_ROD,
 };
 use crate::{
     Error, Refusal, Scenario,
     material::Material,
-    outcome::{BandQuantity, Outcome, RunResult, Termination},
+    outcome::{BandQuantity, RunResult},
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
     units::{Length, significant},
@@ -162,22 +162,13 @@ impl Model for WalkerAnderson {
         let (rod, motion, mut warnings) = Self::motion(scenario)
             .map_err(|refusal| Error::not_applicable(self.name(), refusal))?;
         if rod.speed == 0.0 {
-            let mut result = nothing_moves(self.name());
-            result.projectile_final_length = Some(scenario.projectile.length);
-            result.projectile_final_mass = Some(scenario.projectile.mass);
+            let mut result = at_rest(self.name(), "", &rod, (0.0, rod.length));
+            rod.set_final(scenario, rod.length, &mut result);
             return Ok(result);
         }
         let stop = motion.penetrate(rod.speed, rod.length)?;
-        let (outcome, termination) = if stop.length == 0.0 {
-            (Outcome::ProjectileEroded, Termination::ProjectileConsumed)
-        } else {
-            (Outcome::AtRest, Termination::PenetrationStopped)
-        };
-        let mut result = RunResult::new(self.name(), "", outcome, termination);
-        result.depth_of_penetration = Some(stop.depth);
-        result.residual_velocity = Some(0.0);
-        result.projectile_final_length = Some(rod.length_over_all(scenario, stop.length));
-        result.projectile_final_mass = Some(scenario.projectile.mass * stop.length / rod.length);
+        let mut result = at_rest(self.name(), "", &rod, (stop.depth, stop.length));
+        rod.set_final(scenario, stop.length, &mut result);
         result.time_to_rest = Some(stop.time);
         result.end_time = Some(stop.time);
         let tip = motion.tip_speed_at_impact(rod.speed);

@@ -2,7 +2,7 @@
 
 use super::{
     super::{
-        long_rod::failure,
+        long_rod::{STOPPED, USED_UP, erosion_ends, failure},
         ode::{FinalState, IntegrationError, Problem},
     },
     flow::Flow,
@@ -11,10 +11,6 @@ use crate::error::NumericalError;
 
 /// Error of a step as a part of the quantity.
 const TOLERANCE: f64 = 1e-10;
-/// Part of the impact velocity at which a speed counts as zero.
-const STOPPED: f64 = 1e-7;
-/// Part of the length at which a rod counts as used up.
-const USED_UP: f64 = 1e-7;
 
 /// A rod, a target and a crater.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -122,11 +118,8 @@ impl Motion {
         length: f64,
         watch: impl FnMut(f64, &State),
     ) -> Result<FinalState<4>, IntegrationError> {
-        let event = |&[tail, tip, left, _]: &State| {
-            ((tail - tip) / speed - STOPPED)
-                .min(tip / speed - STOPPED)
-                .min(left / length - USED_UP)
-        };
+        let event =
+            |&[tail, tip, left, _]: &State| erosion_ends([tail, tip, left], (speed, length));
         Problem {
             rates: &|state| self.eroding_rates(state),
             event: &event,
