@@ -31,6 +31,42 @@ pub struct CsvTable<'a> {
     start: usize,
     /// What stands between its columns.
     pub separator: Separator,
+    /// What a comma within a number is.
+    comma: Comma,
+}
+
+/// Meaning of a comma within a number, where it does not separate columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Comma {
+    /// It stands before decimals.
+    Decimal,
+    /// Every one stands before three digits: it may also stand between thousands.
+    Undecided,
+    /// Other numbers of the table have a point before decimals.
+    Contradicted,
+}
+
+impl Comma {
+    fn of(records: &[csv::StringRecord]) -> Self {
+        let fields = || records.iter().flatten().map(str::trim);
+        let is_number = |text: &str| text.parse::<f64>().is_ok();
+        if fields().any(|text| text.contains('.') && is_number(text)) {
+            return Self::Contradicted;
+        }
+        let before_decimals = |text: &str| {
+            let Some((whole, decimals)) = text.split_once(',') else {
+                return false;
+            };
+            let grouped = decimals.len() == 3
+                && decimals.bytes().all(|digit| digit.is_ascii_digit())
+                && !whole.trim_start_matches(['-', '+']).starts_with('0');
+            is_number(&format!("{whole}.{decimals}")) && !grouped
+        };
+        match fields().any(before_decimals) {
+            true => Self::Decimal,
+            false => Self::Undecided,
+        }
+    }
 }
 
 /// Help where a line has one column.
@@ -111,6 +147,7 @@ impl<'a> CsvTable<'a> {
             conversions: Vec::new(),
             start,
             separator: Separator::of(&text[start..]),
+            comma: Comma::Decimal,
         };
         let mut reader = csv::ReaderBuilder::new()
             .delimiter(table.separator.byte())
@@ -125,6 +162,7 @@ impl<'a> CsvTable<'a> {
             table.error(0..0, "", message, "")
         })?;
         records.retain(|record| record.iter().any(|field| !field.trim().is_empty()));
+        table.comma = Comma::of(&records);
         table.header = header.iter().map(|name| name.trim().to_owned()).collect();
         table.written = table.header.clone();
         table.conversions = vec![None; table.header.len()];
@@ -256,8 +294,19 @@ impl CsvRow<'_> {
             Separator::Comma => text.parse::<f64>(),
             Separator::Semicolon | Separator::Tab => text.replacen(',', ".", 1).parse(),
         };
-        match parsed {
-            Ok(number) if number.is_finite() => Ok(Some(number)),
+        let ambiguous = match self.table.comma {
+            _ if parsed.is_err() || !text.contains(',') => None,
+            Comma::Decimal => None,
+            Comma::Undecided => Some("its comma may stand before decimals or between thousands"),
+            Comma::Contradicted => Some("the table has a point before other decimals"),
+        };
+        match (parsed, ambiguous) {
+            (Ok(number), None) if number.is_finite() => Ok(Some(number)),
+            (Ok(_), Some(why)) => Err(self.error(
+                column,
+                format!("`{}` is ambiguous: {why}", shorten(text)),
+                "write all decimals with a point, and thousands without a comma",
+            )),
             _ => Err(self.error(
                 column,
                 format!("`{}` is no number", shorten(text)),

@@ -20,13 +20,13 @@ pub(super) fn likeliest(link: Link, tests: &[Test], pattern: Pattern) -> Estimat
     match pattern {
         Pattern::Mixed => {}
         Pattern::Separated => {
-            // Silvapulle's condition fails: the likelihood rises to 1 as the scatter shrinks to nothing.
-            let (stopped, through) = gap(tests);
-            let (low, high) = interval(link, tests, 0.5 * (stopped + through), 0.0);
+            // Silvapulle's condition fails: the likelihood rises to its bound as the scatter shrinks to nothing.
+            let gap = gap(tests);
+            let (low, high) = interval(link, tests, 0.5 * (gap.0 + gap.1), bound(tests, gap));
             return Estimate {
                 low_m_s: low,
                 high_m_s: high,
-                ..none(separated(stopped, through))
+                ..none(separated(gap))
             };
         }
         Pattern::Reversed => {
@@ -71,8 +71,29 @@ fn gap(tests: &[Test]) -> (f64, f64) {
     )
 }
 
-fn separated(stopped: f64, through: f64) -> String {
-    let (stopped, through) = (significant(stopped, 6), significant(through, 6));
+/// Bound of the logarithm of the likelihood of separated tests: of those at the one velocity that has both kinds, the chance of complete
+/// penetration is the part that went through; all others are certain.
+fn bound(tests: &[Test], (stopped, through): (f64, f64)) -> f64 {
+    if stopped < through {
+        return 0.0;
+    }
+    let count = |perforated| {
+        let there = velocities(tests, perforated).filter(|velocity| *velocity == through);
+        there.count() as f64
+    };
+    let [partial, complete] = [false, true].map(count);
+    let log = |part: f64| part * (part / (partial + complete)).ln();
+    log(partial) + log(complete)
+}
+
+fn separated((slower, faster): (f64, f64)) -> String {
+    let (stopped, through) = (significant(slower, 6), significant(faster, 6));
+    if slower == faster {
+        return format!(
+            "no zone of mixed results: partial and complete penetrations are both found at {stopped} m/s only, slower tests are partial and \
+             faster ones complete; V50 there with a scatter of zero is the most likely one"
+        );
+    }
     format!(
         "no zone of mixed results: all tests up to {stopped} m/s are partial penetrations and all from {through} m/s are complete; \
          any V50 between them with a scatter of zero is equally likely"

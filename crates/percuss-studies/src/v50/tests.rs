@@ -166,9 +166,49 @@ fn separated_tests_have_no_likeliest_v50_but_an_interval_and_a_mean() {
     // A test of either kind at one velocity is no zone of mixed results.
     let touching = tests(&[170.0, 180.0], &[180.0, 190.0]);
     assert_eq!(estimate(&touching, SPAN).pattern, Pattern::Separated);
+    let reason = by(Method::Probit, &touching).reason.unwrap();
+    assert!(reason.contains("both found at 180 m/s only"), "{reason}");
     // Two tests bound nothing.
     let two = by(Method::Probit, &tests(&[180.0], &[190.0]));
     assert_eq!((two.low_m_s, two.high_m_s), (None, None));
+}
+
+/// Three of six tests at one velocity go through, slower ones never and faster ones always: by brute force over the scatter, the likelihood at the
+/// ends is down by half of chi-square from its bound, 6 ln ½. With one of ten, V50 lies above that velocity and not below it.
+#[test]
+fn the_interval_of_tests_that_go_either_way_at_one_velocity_has_a_width() {
+    let even = tests(
+        &[100.0, 105.0, 110.0, 110.0, 110.0],
+        &[110.0, 110.0, 110.0, 115.0, 120.0],
+    );
+    for link in [Link::Probit, Link::Logit] {
+        let found = by(link.method(), &even);
+        let best = |v50: f64| {
+            let log = |scale: f64| -> f64 {
+                let one = |s: &Test| {
+                    link.log_probability(fit::sign(s) * (s.impact_velocity - v50) / scale)
+                };
+                even.iter().map(one).sum()
+            };
+            (1..40_000)
+                .map(|i| log(0.005 * f64::from(i)))
+                .fold(f64::MIN, f64::max)
+        };
+        let (low, high) = (found.low_m_s.unwrap(), found.high_m_s.unwrap());
+        assert!(
+            (low + high - 220.0).abs() < 1e-6 && high > 115.0,
+            "{low} {high}"
+        );
+        for end in [low, high] {
+            let fall = 2.0 * (6.0 * 0.5_f64.ln() - best(end));
+            assert!((fall - 3.841_459).abs() < 1e-4, "{link:?} {end} {fall}");
+        }
+    }
+    let mut few = tests(&[100.0, 105.0], &[110.0, 115.0, 120.0]);
+    few.extend(tests(&[110.0; 9], &[]));
+    let found = by(Method::Probit, &few);
+    let (low, high) = (found.low_m_s.unwrap(), found.high_m_s.unwrap());
+    assert!((low - 110.0).abs() < 1e-6 && high > 111.0, "{low} {high}");
 }
 
 #[test]
@@ -369,6 +409,29 @@ fn tables_of_spreadsheets_are_read() {
             );
         }
     }
+    for (text, words) in [
+        (
+            "velocity (m/s);result\n1,020;no\n1,040;yes\n",
+            "decimals or between thousands",
+        ),
+        (
+            "velocity (ft/s)\tresult\n2,750\tno\n995.5\tyes\n",
+            "has a point before other decimals",
+        ),
+    ] {
+        let error = read_str("tests.csv", text).unwrap_err().to_string();
+        assert!(
+            error.contains("is ambiguous") && error.contains(words),
+            "{error}"
+        );
+    }
+    // Other commas tell.
+    let tabs = read_str(
+        "tests.csv",
+        "velocity (km/s)\tresult\n1,020\tno\n1,03\tyes\n",
+    )
+    .unwrap();
+    assert!((tabs[0].impact_velocity - 1020.0).abs() < 1e-9);
     let error = read_str("tests.csv", "velocity (m/s);result\n1.184,3;no\n").unwrap_err();
     assert!(
         error.to_string().contains("`1.184,3` is no number"),

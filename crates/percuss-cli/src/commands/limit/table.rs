@@ -286,6 +286,11 @@ fn pattern(v50: &V50) -> String {
     );
     match v50.pattern {
         Pattern::Mixed => format!("zone of mixed results from {through} to {stopped} m/s"),
+        Pattern::Separated if stopped == through => {
+            format!(
+                "no zone of mixed results: partial and complete penetration both at {stopped} m/s only"
+            )
+        }
         Pattern::Separated => {
             format!(
                 "no zone of mixed results: partial penetration up to {stopped} m/s, complete from {through} m/s on"
