@@ -332,6 +332,30 @@ fn a_checkpoint_of_another_solver_of_the_same_model_is_refused() {
     );
 }
 
+/// A constant that differs in its last digits makes another case.
+#[test]
+fn a_checkpoint_of_almost_the_same_case_is_refused() {
+    let column = scenario(COLUMN);
+    let bytes = interrupted("chain", &column, 1).unwrap();
+    let resume = |stiffer: f64| {
+        let mut other = column.clone();
+        let material = &column.projectile.material;
+        let modulus = material.youngs_modulus.si() * stiffer;
+        other.projectile.material = std::sync::Arc::new(percuss::material::Material {
+            youngs_modulus: percuss::units::Pressure::new(modulus),
+            ..(**material).clone()
+        });
+        let mut control = Control {
+            resume: Some(&bytes),
+            ..Control::default()
+        };
+        run("chain", &other, &mut control)
+    };
+    assert!(resume(1.0).is_ok());
+    let refused = resume(1.0 + 1e-12).unwrap_err().to_string();
+    assert!(refused.contains("another case"), "{refused}");
+}
+
 #[test]
 fn a_resumed_run_keeps_the_courant_number_that_it_was_reduced_to() {
     // The rod's default Courant number is too large for this viscosity.

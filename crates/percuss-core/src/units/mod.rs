@@ -65,9 +65,10 @@ impl<D> PartialEq for Quantity<D> {
     }
 }
 
+/// Writes the value in SI units with all its digits.
 impl<D: Dimension> fmt::Debug for Quantity<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
+        fmt::Debug::fmt(&self.si, f)
     }
 }
 

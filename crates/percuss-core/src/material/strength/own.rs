@@ -26,6 +26,6 @@ impl PartialEq for OwnLaw {
 
 impl fmt::Debug for OwnLaw {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.0.equation())
+        write!(f, "{} {:?}", self.0.equation(), self.0.parameters())
     }
 }
