@@ -68,17 +68,17 @@ impl RequestLimits {
             ));
         }
         let options = &scenario.options;
-        let (projectile, target) = match model.name() {
+        let elements = match model.name() {
             "fdm" => {
                 let (projectile, target) = percuss::fdm::elements(scenario);
-                (projectile as usize, target as usize)
+                projectile.saturating_add(target) as usize
             }
-            _ => (
-                options.chain.projectile_elements(),
-                options.chain.target_elements(),
-            ),
+            "chain" => {
+                let target = options.chain.target_elements();
+                options.chain.projectile_elements().saturating_add(target)
+            }
+            _ => 0,
         };
-        let elements = projectile.saturating_add(target);
         if elements > self.elements {
             return Err(Problem::too_large(
                 format!("the mesh has {elements} elements"),

@@ -25,6 +25,7 @@ pub(super) fn read(deck: &Deck<'_>, units: UnitSystem) -> Result<Imported, Error
     let mut imported = Imported::default();
     let (mut found, mut equations, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
     let mut unread = Unread::default();
+    let mut has_unread_parts = false;
     for keyword in &deck.keywords {
         let mut card = Card {
             deck,
@@ -42,11 +43,17 @@ pub(super) fn read(deck: &Deck<'_>, units: UnitSystem) -> Result<Imported, Error
                     equation_of_state::read(deck, keyword, units, &mut imported.warnings)?;
                 equations.push(equation);
             }
-            "PART" => pairs.extend(parts(deck, keyword)?),
+            "PART" => pairs.extend(parts(deck, keyword, 2)?),
+            "PART_CONTACT" | "PART_PRINT" => pairs.extend(parts(deck, keyword, 3)?),
+            name if name.starts_with("PART_") => {
+                has_unread_parts = true;
+                let why = "is not read: the equations of state of its parts are left out";
+                unread.add(name, why, deck.line(&keyword.span));
+            }
             name if name.starts_with("MAT_") || name.starts_with("EOS_") => {
                 unread.add(name, "is not read", deck.line(&keyword.span));
             }
-            name @ "INCLUDE" => {
+            name if name == "INCLUDE" || name.starts_with("INCLUDE_") => {
                 let why = "is not followed: give the file itself";
                 unread.add(name, why, deck.line(&keyword.span));
             }
@@ -60,7 +67,8 @@ pub(super) fn read(deck: &Deck<'_>, units: UnitSystem) -> Result<Imported, Error
         let help = "*MAT_JOHNSON_COOK and *MAT_SIMPLIFIED_JOHNSON_COOK are read".to_owned();
         return Err(deck.error(&(0..0), message, help));
     }
-    let mut joins = Joins::new(&equations, &pairs);
+    let has_parts = has_unread_parts || !pairs.is_empty();
+    let mut joins = Joins::new(&equations, has_parts.then_some(&pairs));
     let mut ids = Ids::default();
     for (keyword, Found { number, material }) in found {
         let (first, count) = joins.equations_of(number);
@@ -87,10 +95,10 @@ pub(super) fn read(deck: &Deck<'_>, units: UnitSystem) -> Result<Imported, Error
     Ok(imported)
 }
 
-/// Material and equation of state of every part below a keyword: a heading and a card each.
-fn parts(deck: &Deck<'_>, keyword: &Keyword<'_>) -> Result<Vec<Pair>, Error> {
+/// Material and equation of state of every part below a keyword: a heading, a card, and the further cards of an option each.
+fn parts(deck: &Deck<'_>, keyword: &Keyword<'_>, each: usize) -> Result<Vec<Pair>, Error> {
     let mut pairs = Vec::new();
-    for card in (1..keyword.cards()).step_by(2) {
+    for card in (1..keyword.cards()).step_by(each) {
         let [_, _, material, equation]: [Field; 4] = keyword.card(deck, card)?;
         if let (Some(material), Some(equation)) = (material.value, equation.value) {
             pairs.push((material, equation));
@@ -157,19 +165,22 @@ struct Joins {
 }
 
 impl Joins {
-    fn new(equations: &[GruneisenCard], pairs: &[Pair]) -> Self {
+    fn new(equations: &[GruneisenCard], pairs: Option<&Vec<Pair>>) -> Self {
         let mut places: HashMap<u64, Vec<usize>> = HashMap::new();
         for (place, card) in equations.iter().enumerate() {
             places.entry(key(card.number)).or_default().push(place);
         }
-        let mut parts: HashMap<u64, HashSet<u64>> = HashMap::new();
-        for (material, equation) in pairs {
-            let of_material = parts.entry(key(*material)).or_default();
-            of_material.insert(key(*equation));
-        }
+        let parts = pairs.map(|pairs| {
+            let mut parts: HashMap<u64, HashSet<u64>> = HashMap::new();
+            for (material, equation) in pairs {
+                let of_material = parts.entry(key(*material)).or_default();
+                of_material.insert(key(*equation));
+            }
+            parts
+        });
         Self {
             places,
-            parts: (!pairs.is_empty()).then_some(parts),
+            parts,
             known: HashMap::new(),
             joined: HashSet::new(),
         }

@@ -165,9 +165,50 @@ fn every_number_without_a_place_has_a_warning() {
             "0\n*EOS_004\n2,3574,1.92,0,0,1.69\n*EOS_004\n3,3600,1.92,0,0,1.69\n*PART\na\n1,1,1,2\nb\n2,1,1,3\n",
             "material 1 with 2 equations of state",
         ),
+        (
+            "0\n*EOS_004\n1,3574,1.92,0,0,1.69\n*PART_INERTIA\na\n1,1,1,2\n",
+            "*PART_INERTIA is not read",
+        ),
+        (
+            "0\n*INCLUDE_TRANSFORM\nother.k\n",
+            "*INCLUDE_TRANSFORM is not followed",
+        ),
     ] {
         let (_, warnings) = of(rest);
         assert!(warnings.contains(words), "`{words}` is not in\n{warnings}");
+    }
+}
+
+/// The part says which equation is the material's, whatever options the part has.
+#[test]
+fn parts_with_options_join_materials_with_their_equations() {
+    let deck = |parts: &str| {
+        format!(
+            "*MAT_015\n1,7.83e-6,80,208,0.3\n0.8,0.5,0.3,0.01,1,1800,300,0.001\n0\n*EOS_004\n1,3940,1.489,0,0,1.69\n\
+             *EOS_004\n2,4569,1.49,0,0,2.17\n{parts}"
+        )
+    };
+    for (parts, speed) in [
+        ("*PART\nplate\n1,1,1,2\n", Some(4569.0)),
+        (
+            "*PART_CONTACT\nother\n2,1,7,1\n0.1,0.1\nplate\n1,1,1,2\n0.1,0.1\n",
+            Some(4569.0),
+        ),
+        // What is not read joins nothing.
+        (
+            "*PART_INERTIA\nplate\n1,1,1,2\n0,0,0,1\n1,0,0,1,0,1\n0,0,0\n",
+            None,
+        ),
+        ("", Some(3940.0)),
+    ] {
+        let found = read("d.k", &deck(parts), units("mm-kg-ms")).unwrap();
+        let equation = &found.records["mat-015"].equation_of_state;
+        let found = equation.as_ref().map(|equation| equation.sound_speed.si());
+        let near = match (found, speed) {
+            (Some(a), Some(b)) => (a - b).abs() < 1e-6 * b,
+            (a, b) => a == b,
+        };
+        assert!(near, "{parts}: {found:?}");
     }
 }
 

@@ -207,7 +207,11 @@ fn a_sweep_has_bounds() {
     let lines = served.post("/api/study/sweep", &asked(elements)).lines();
     let done = &lines[lines.len() - 1]["done"];
     assert_eq!(done["rows"][1]["reason"], "the mesh has 5010 elements");
-    assert_eq!(done["outcomes"]["failed"], 1);
+    // A formula has no mesh.
+    let formula = elements.replace("'chain'\ndesign", "'crater_energy'\ndesign");
+    let lines = served.post("/api/study/sweep", &asked(&formula)).lines();
+    let done = &lines[lines.len() - 1]["done"];
+    assert_eq!(done["outcomes"], json!({ "at rest": 2 }));
 }
 
 /// Who closes the connection, or asks for too long, frees the place.
