@@ -56,6 +56,26 @@ pub fn has_history(result: &RunResult) -> bool {
     history.is_some_and(|history| !history.samples.is_empty())
 }
 
+/// Names of the files of a folder that are not among those written, `None` without any: those of an earlier run would be taken for this one's.
+pub fn others(folder: &Path, written: &[PathBuf]) -> Option<String> {
+    const MOST: usize = 12;
+    let entries = fs::read_dir(folder).ok()?.flatten();
+    let files = entries.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_file()));
+    let mut names: Vec<String> = files
+        .map(|entry| entry.file_name())
+        .filter(|name| !written.iter().any(|file| file.file_name() == Some(name)))
+        .map(|name| name.to_string_lossy().into_owned())
+        .collect();
+    names.sort_unstable();
+    let more = names.len().saturating_sub(MOST);
+    names.truncate(MOST);
+    let listed = names.join(", ");
+    match more {
+        0 => (!names.is_empty()).then_some(listed),
+        more => Some(format!("{listed} and {more} more")),
+    }
+}
+
 /// Output folder with the list of its files.
 pub struct RunFolder {
     path: PathBuf,

@@ -238,6 +238,23 @@ fn a_folder_holds_case_result_histories_and_figures() {
     assert_eq!(ok(folder.path(), &again).lines().count(), 1);
 }
 
+/// A model without histories leaves those of an earlier run where they are, and says so.
+#[test]
+fn files_of_an_earlier_run_are_named() {
+    let folder = shot(CASE);
+    let run = |model: &str| {
+        let arguments = ["run", "shot.toml", "--model", model, "--out", "out"];
+        flat(&ok(folder.path(), &arguments))
+    };
+    assert!(!run("fdm").contains("not of this run"));
+    let said = run("crater_energy");
+    let names = said.split("not of this run: ").nth(1).unwrap();
+    assert!(
+        names.contains("history.csv") && !names.contains("result.json"),
+        "{said}"
+    );
+}
+
 #[test]
 fn a_folder_that_cannot_be_written_is_said_before_the_run() {
     let folder = shot(CASE);

@@ -60,6 +60,17 @@ pub struct DamageState {
     pub temperature: f64,
 }
 
+impl DamageState {
+    /// Rate of a plastic strain over a time step [s], as laws see it [1/s]: 0 where rates have no effect.
+    pub fn rate(increment: f64, time_step: f64, rate_effects: bool) -> f64 {
+        if rate_effects {
+            increment / time_step
+        } else {
+            0.0
+        }
+    }
+}
+
 /// Damage made ready for one material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PreparedDamage {

@@ -39,7 +39,7 @@ pub struct AxiOptions {
     pub courant: Option<f64>,
     /// Artificial viscosity in compression.
     pub artificial_viscosity: Option<ArtificialViscosity>,
-    /// Whether strength laws see the strain rate.
+    /// Whether strength and damage laws see the strain rate.
     pub rate_effects: Option<bool>,
     /// Whether plastic work heats the material.
     pub adiabatic_heating: Option<bool>,
@@ -122,7 +122,7 @@ defaults! { AxiOptions, axi_in_schema {
     courant: f64 = 0.7;
     /// Artificial viscosity.
     artificial_viscosity: ArtificialViscosity = ArtificialViscosity { linear: 0.06, quadratic: 1.2 };
-    /// Whether strength laws see the strain rate.
+    /// Whether strength and damage laws see the strain rate.
     rate_effects: bool = true;
     /// Whether plastic work heats the material.
     adiabatic_heating: bool = true;

@@ -63,7 +63,7 @@ pub struct ChainOptions {
     pub failure: Option<Failure>,
     /// Energy that a crack takes to open, per area [J/m2]; none when not given.
     pub fracture_energy: Option<EnergyPerArea>,
-    /// Whether strength laws see the strain rate; scheme `conservative` only.
+    /// Whether strength and damage laws see the strain rate; scheme `conservative` only.
     pub rate_effects: Option<bool>,
     /// Whether plastic work heats the material; scheme `conservative` only.
     pub adiabatic_heating: Option<bool>,

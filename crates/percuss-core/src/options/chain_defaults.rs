@@ -28,7 +28,7 @@ defaults! { ChainOptions, chain_in_schema {
     damping_ratio: f64 = 0.0;
     /// Local damping.
     local_damping: f64 = 0.0;
-    /// Whether strength laws see the strain rate.
+    /// Whether strength and damage laws see the strain rate.
     rate_effects: bool = true;
     /// Whether plastic work heats the material.
     adiabatic_heating: bool = true;

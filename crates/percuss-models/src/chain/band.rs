@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{band_law::BandLaw, shear_zone::SQRT_3};
-use crate::material::{FlowState, Trial, YieldPoint};
+use crate::material::{DamageState, FlowState, Trial, YieldPoint};
 
 /// Band of one target node. Strains and damage are those of the rim.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
@@ -113,9 +113,10 @@ impl Band {
     }
 
     fn flow(&mut self, law: &BandLaw, trial: f64, increment: f64, width: f64, time_step: f64) {
+        let rate = DamageState::rate(increment, time_step, law.rate_effects);
         self.damage = law
             .failure
-            .grow(self.damage, increment, time_step, self.temperature);
+            .grow(self.damage, increment, rate, self.temperature);
         self.plastic_step = (SQRT_3 * increment * width).copysign(trial);
         self.plastic_slip += self.plastic_step;
         self.stress = trial - self.stiffness * self.plastic_step;

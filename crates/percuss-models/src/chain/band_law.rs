@@ -25,13 +25,19 @@ pub(super) enum Failure {
 }
 
 impl Failure {
-    /// Damage after a further strain in pure shear.
-    pub(super) fn grow(self, damage: f64, increment: f64, time_step: f64, temperature: f64) -> f64 {
+    /// Damage after a further strain in pure shear at a rate [1/s].
+    pub(super) fn grow(
+        self,
+        damage: f64,
+        increment: f64,
+        strain_rate: f64,
+        temperature: f64,
+    ) -> f64 {
         match self {
             Self::Damage(law) => {
                 let state = DamageState {
                     triaxiality: 0.0,
-                    strain_rate: increment / time_step,
+                    strain_rate,
                     temperature,
                 };
                 law.grow(damage, &state, increment)

@@ -10,7 +10,7 @@ use super::{
 use crate::{
     Refusal,
     lanes::LANES,
-    material::FailureState,
+    material::{DamageState, FailureState},
     scenario::{Scenario, TargetBody},
 };
 
@@ -45,12 +45,14 @@ impl State {
             for e in segment.elements() {
                 let (block, l) = (&mut self.elements.blocks_mut()[e / LANES], e % LANES);
                 let stress = block.spring.stress[l];
+                let increment = block.plastic.step[l].abs();
                 block.damage[l] = law.damage(
                     block.damage[l],
                     &FailureState {
                         tension: -stress,
                         triaxiality: triaxiality.copysign(-stress),
-                        plastic_strain_increment: block.plastic.step[l].abs(),
+                        plastic_strain_increment: increment,
+                        strain_rate: DamageState::rate(increment, time_step, part.rate_effects),
                         temperature: block.plastic.temperature[l],
                     },
                     time_step,

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use super::{band_law::Failure, plate_flow::FlowingRings};
 use crate::{
-    material::{FlowState, Material, PreparedStrength},
+    material::{DamageState, FlowState, Material, PreparedStrength},
     options::ChainOptions,
 };
 
@@ -305,9 +305,10 @@ impl Ring {
         let returned = section.returned(trial, multiplier);
         let increment = section.strain(multiplier, section.equivalent(returned));
         let temperature = self.state.temperature;
+        let rate = DamageState::rate(increment, time_step, section.rate_effects);
         self.damage = section
             .failure
-            .grow(self.damage, increment, time_step, temperature);
+            .grow(self.damage, increment, rate, temperature);
         [self.sum, self.difference, self.shear] = returned;
         let stiffness = section.stiffness();
         self.plastic_step = std::array::from_fn(|i| (trial[i] - returned[i]) / stiffness[i]);

@@ -149,6 +149,48 @@ fn a_constant_strength_takes_its_work() {
 }
 
 /// Where a plug parts, both ends together hold what the node held; the end ahead has left the plate first.
+/// Damage sees the rate where strength does: without rate effects its rate constant changes nothing.
+#[test]
+fn damage_sees_the_rate_where_strength_does() {
+    let slip_at_end = |d4: f64, rate_effects: bool| {
+        let scenario = case::load_str(
+            "band",
+            &format!(
+                r#"
+                projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "{SPEED} m/s" }}
+                target = {{ material = "plate", thickness = "12 mm", back_face = "free" }}
+                chain = {{ border_shear_law = "shear-band", rate_effects = {rate_effects}, shear_band = {{ width = "0.2 mm" }} }}
+                [materials.plate]
+                name = "plate"
+                density = "7850 kg/m3"
+                youngs_modulus = "200 GPa"
+                poissons_ratio = 0.33
+                strength.perfectly_plastic = {{ flow_stress = "600 MPa" }}
+                damage = {{ d1 = 0.3, d2 = 0.2, d3 = -1.5, d4 = {d4} }}
+                "#
+            ),
+        )
+        .unwrap_or_else(|error| panic!("{error}"));
+        let TargetBody::Layers { layers, .. } = &scenario.target else {
+            panic!("no plate");
+        };
+        let law = BandLaw::new(&layers[0], 0.01, SPEED, &scenario.options.chain).unwrap();
+        assert!(matches!(law.failure, Failure::Damage(_)));
+        let [slip, _] = *slide(law, 1.0).2.last().unwrap();
+        slip
+    };
+    let steady = slip_at_end(0.0, false);
+    assert_eq!(slip_at_end(0.1, false), steady);
+    assert_eq!(slip_at_end(0.0, true), steady);
+    // The rate is that of the slip over the width, and the failure strain grows with its logarithm.
+    let rate: f64 = SPEED / (SQRT_3 * 2e-4);
+    let grown = slip_at_end(0.1, true) / steady;
+    assert!(
+        (grown / (1.0 + 0.1 * rate.ln()) - 1.0).abs() < 0.02,
+        "{grown}"
+    );
+}
+
 #[test]
 fn a_band_is_shared_where_the_plug_parts() {
     let layer = law("shear_band = { failure = \"never\" }").unwrap();

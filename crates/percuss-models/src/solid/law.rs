@@ -145,14 +145,9 @@ impl Law {
         if let Some(law) = self.damage.filter(|_| increment > 0.0) {
             let increment =
                 increment * (1.0 + particle.localization * (cell / self.band_width - 1.0));
-            let strain_rate = if self.rate_effects {
-                increment / time_step
-            } else {
-                0.0
-            };
             let state = DamageState {
                 triaxiality: -particle.pressure / particle.equivalent_stress(),
-                strain_rate,
+                strain_rate: DamageState::rate(increment, time_step, self.rate_effects),
                 temperature: particle.temperature,
             };
             particle.damage = law.grow(particle.damage, &state, increment);

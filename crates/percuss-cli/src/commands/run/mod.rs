@@ -331,12 +331,19 @@ impl Run {
 
     /// List of the written files.
     fn file_list(&self, run_output: &RunOutput, files: &[PathBuf]) -> FileList {
-        let written = FileList::new(files);
-        if run_folder::has_history(&run_output.result) {
-            return written;
+        let mut written = FileList::new(files);
+        if !run_folder::has_history(&run_output.result) {
+            let why = without_history(&run_output.result);
+            written = written.with_note(&format!("no time history: this model {why}"));
         }
-        let why = without_history(&run_output.result);
-        written.with_note(&format!("no time history: this model {why}"))
+        match self
+            .out
+            .as_deref()
+            .and_then(|out| run_folder::others(out, files))
+        {
+            Some(names) => written.with_note(&format!("not of this run: {names}")),
+            None => written,
+        }
     }
 
     /// Results of the model, and of others if none is named. Where an axisymmetric answer `follows`, it stands for the estimated model

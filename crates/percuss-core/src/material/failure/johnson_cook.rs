@@ -17,11 +17,11 @@ pub struct JohnsonCookDamage {}
 struct Prepared(PreparedDamage);
 
 impl PreparedFailure for Prepared {
-    fn damage(&self, before: f64, state: &FailureState, time_step: f64) -> f64 {
+    fn damage(&self, before: f64, state: &FailureState, _: f64) -> f64 {
         let increment = state.plastic_strain_increment;
         let state = DamageState {
             triaxiality: state.triaxiality,
-            strain_rate: increment / time_step,
+            strain_rate: state.strain_rate,
             temperature: state.temperature,
         };
         self.0.grow(before, &state, increment)
@@ -71,6 +71,7 @@ mod tests {
             tension: 1e9,
             triaxiality: 1.0 / 3.0,
             plastic_strain_increment: rate * step,
+            strain_rate: rate,
             temperature,
         };
         let (mut damage, mut strain) = (0.0, 0.0);

@@ -27,6 +27,8 @@ pub struct FailureState {
     pub triaxiality: f64,
     /// Equivalent plastic strain of the step.
     pub plastic_strain_increment: f64,
+    /// Rate of the plastic strain [1/s]; 0 where rates have no effect.
+    pub strain_rate: f64,
     /// Temperature [K].
     pub temperature: f64,
 }

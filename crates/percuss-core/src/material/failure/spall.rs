@@ -62,6 +62,7 @@ mod tests {
                 tension,
                 triaxiality: 1.0 / 3.0,
                 plastic_strain_increment: 0.0,
+                strain_rate: 0.0,
                 temperature: 293.0,
             };
             law.damage(0.7, &state, 1e-9)

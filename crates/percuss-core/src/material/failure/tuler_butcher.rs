@@ -126,6 +126,7 @@ mod tests {
                 tension: peak * (1.0 - (2.0 * part - 1.0).abs()),
                 triaxiality: 1.0 / 3.0,
                 plastic_strain_increment: 0.0,
+                strain_rate: 0.0,
                 temperature: 293.0,
             };
             damage = law.damage(damage, &state, step);

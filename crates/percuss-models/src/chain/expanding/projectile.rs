@@ -3,7 +3,7 @@
 use super::{
     node::Node,
     rod::{Loss, Rod},
-    slice::{Particulars, Slice},
+    slice::{Metal, Particulars, Slice},
 };
 use crate::{
     Error,
@@ -12,7 +12,7 @@ use crate::{
         solver::StepControl,
     },
     fragments::Fragment,
-    material::{FailureState, PreparedFailure},
+    material::{DamageState, FailureState, PreparedFailure},
     solver::archive::Archive,
 };
 
@@ -345,7 +345,8 @@ fn fragment(rod: &Rod) -> Fragment {
 }
 
 /// State that damage of a slice grows by over a step.
-pub(super) fn failure_state(slice: &Slice) -> FailureState {
+pub(super) fn failure_state(slice: &Slice, metal: &Metal, time_step: f64) -> FailureState {
+    let increment = slice.plastic.step.abs();
     let equivalent = slice.difference[1].abs();
     FailureState {
         tension: -slice.axial_stress(),
@@ -354,7 +355,8 @@ pub(super) fn failure_state(slice: &Slice) -> FailureState {
         } else {
             0.0
         },
-        plastic_strain_increment: slice.plastic.step.abs(),
+        plastic_strain_increment: increment,
+        strain_rate: DamageState::rate(increment, time_step, metal.rate_effects),
         temperature: slice.plastic.temperature,
     }
 }

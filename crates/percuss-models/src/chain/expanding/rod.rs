@@ -218,7 +218,11 @@ impl Rod {
     /// Brings the damage of its slices up to the end of a step [s].
     pub(super) fn damage(&mut self, law: &dyn PreparedFailure, time_step: f64) {
         for (slice, own) in self.slices.iter().zip(&mut self.particulars) {
-            own.damage = law.damage(own.damage, &failure_state(&slice), time_step);
+            own.damage = law.damage(
+                own.damage,
+                &failure_state(&slice, &self.metal, time_step),
+                time_step,
+            );
         }
     }
 

@@ -205,6 +205,7 @@ impl State {
                 tension: -spring.stress,
                 triaxiality: (-spring.stress).signum() / 3.0,
                 plastic_strain_increment: 0.0,
+                strain_rate: 0.0,
                 temperature: self.far_field.temperature,
             };
             *damage = failure.law.damage(*damage, &state, time_step);
