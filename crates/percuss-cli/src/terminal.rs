@@ -20,7 +20,11 @@ pub fn width() -> usize {
 
 /// Width of the terminal; `None` outside a terminal.
 pub fn full_width() -> Option<usize> {
-    Table::new().width().map(usize::from)
+    // A terminal that does not know its size says 0.
+    Table::new()
+        .width()
+        .map(usize::from)
+        .filter(|&width| width > 0)
 }
 
 /// Whether escape codes may be written to a stream.

@@ -75,6 +75,7 @@ fn models_as_json_hold_their_whole_validity_domain() {
         assert_eq!(
             keys(validity),
             [
+                "breaks_brittle",
                 "first_choice",
                 "fitted_to",
                 "noses",

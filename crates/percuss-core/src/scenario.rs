@@ -277,6 +277,20 @@ impl Scenario {
         }
     }
 
+    /// Ids of the materials that are brittle, each once: those with a fracture energy and no law of concrete.
+    pub fn brittle(&self) -> Vec<&str> {
+        let rod = &self.projectile;
+        let layers = self.layers().iter();
+        let layers = layers.map(|layer| (&*layer.material, &*layer.material_id));
+        let mut ids: Vec<&str> = std::iter::once((&*rod.material, &*rod.material_id))
+            .chain(layers)
+            .filter(|(material, _)| material.fracture.is_some())
+            .map(|(_, id)| id)
+            .collect();
+        ids.dedup();
+        ids
+    }
+
     /// Thickness of all layers together [m]; `None` for a semi-infinite target, a wall or a constant pressure.
     pub fn target_thickness(&self) -> Option<f64> {
         match &self.target {

@@ -53,6 +53,8 @@ pub struct ValidityDomain {
     pub oblique_noses: &'static [NoseKind],
     /// Whether it follows a projectile or a target that is not at the temperature its material was measured at.
     pub start_temperature: bool,
+    /// Whether it breaks brittle materials: they stay whole in others.
+    pub breaks_brittle: bool,
     /// Whether it takes gaps between layers, bonded interfaces and layers of different diameter.
     pub separate_layers: bool,
     /// Whether it takes a law of resistance of the caller's own.
@@ -104,6 +106,7 @@ impl ValidityDomain {
         ],
         oblique_noses: &[],
         start_temperature: false,
+        breaks_brittle: false,
         separate_layers: false,
         own_resistance: false,
         sees_back_face: true,
@@ -192,6 +195,13 @@ impl ValidityDomain {
                 Outside::NotApplicable => return Applicability::refused(outside),
                 Outside::Warning => warnings.push(outside),
             }
+        }
+        let brittle = scenario.brittle();
+        if !self.breaks_brittle && !brittle.is_empty() {
+            warnings.push(format!(
+                "{} is brittle, and stays whole in this model: `particles` breaks it",
+                brittle.join(", ")
+            ));
         }
         Applicability::Inside(warnings)
     }

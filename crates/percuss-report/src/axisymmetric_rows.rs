@@ -29,6 +29,14 @@ pub fn listed(cells: &[u32]) -> String {
     }
 }
 
+/// `+12`, `−4` or `0`.
+fn signed_percent(part: f64) -> String {
+    match (100.0 * part).round() {
+        0.0 => "0".to_owned(),
+        percent => format!("{percent:+.0}").replace('-', "−"),
+    }
+}
+
 /// Name of a main number in the headline.
 fn in_headline(quantity: BandQuantity) -> &'static str {
     match quantity {
@@ -51,7 +59,7 @@ pub fn rows(answer: &AxisymmetricAnswer, beside: Option<&ResultRecord>) -> Vec<R
     if let Some((record, own)) = beside.and_then(|record| Some((record, record.value(quantity)?))) {
         let difference = match value {
             0.0 => String::new(),
-            _ => format!(", {:+.0} %", 100.0 * (own / value - 1.0)).replace('-', "−"),
+            _ => format!(", {} %", signed_percent(own / value - 1.0)),
         };
         let kind = match record.model {
             "chain" | "fdm" => "one-dimensional",

@@ -3,7 +3,7 @@
 use crate::common::{assert_near, scenario};
 use percuss::{
     model::{self, Control},
-    outcome::RunResult,
+    outcome::{Outcome, RunResult},
 };
 
 /// Runs a case by the axisymmetric model.
@@ -149,6 +149,43 @@ fn a_soft_rod_on_a_hard_target_has_a_depth_that_meshes_agree_on() {
     assert_near("depth", fine, coarse, 0.1);
 }
 
+/// A rod that has come through a plate goes on without the debris that it has left in the hole.
+#[test]
+fn debris_in_the_hole_does_not_slow_what_is_left_of_a_rod() {
+    let case = scenario(
+        r#"
+        projectile = { material = "tungsten-alloy", length = "50 mm", diameter = "5 mm", impact_velocity = "1500 m/s" }
+        target = { material = "rha", thickness = "20 mm", back_face = "free" }
+        axi = { cells_per_radius = 3 }
+        "#,
+    );
+    let result = model::run(
+        model::model("axi").unwrap(),
+        &case,
+        &mut Control::recording(),
+    )
+    .unwrap();
+    assert_eq!(result.outcome, Outcome::Perforated);
+    let last = result.history.as_ref().unwrap().samples.last().unwrap();
+    let residual = result.residual_velocity.unwrap();
+    assert!(
+        last.tip_velocity < residual && residual < last.tail_velocity,
+        "{residual}"
+    );
+    assert!(last.mean_velocity < 0.98 * residual);
+    let debris = result
+        .details
+        .iter()
+        .find(|detail| detail.name == "debris of the projectile");
+    let whole = case.projectile.mass;
+    let sum = result.projectile_final_mass.unwrap() + 1e-3 * debris.unwrap().value;
+    assert!(
+        sum < 1.000_001 * whole && sum > 0.8 * whole,
+        "{sum} {whole}"
+    );
+    assert!(result.projectile_final_diameter.unwrap() < 3.0 * case.projectile.diameter);
+}
+
 #[test]
 fn brittle_targets_are_named_that_cannot_crack() {
     let result = axi(r#"
@@ -158,7 +195,7 @@ fn brittle_targets_are_named_that_cannot_crack() {
         "#);
     let warnings = result.warnings.join("\n");
     assert!(
-        warnings.contains("is brittle, and cannot crack in `axi`"),
+        warnings.contains("is brittle, and stays whole in this model"),
         "{warnings}"
     );
     assert!(!warnings.contains("stretching and thinning"), "{warnings}");

@@ -127,11 +127,13 @@ impl Converge {
             "{}\n{}\n\n",
             bold(format!("Convergence of {}", scenario.name)),
             wrap(
-                &format!(
-                    "model {}, scheme {}",
-                    self.model,
-                    scenario.options.chain.scheme.name()
-                ),
+                &match self.model.as_str() {
+                    "chain" => {
+                        let scheme = scenario.options.chain.scheme.name();
+                        format!("model chain, scheme {scheme}")
+                    }
+                    other => format!("model {other}"),
+                },
                 width(),
                 0
             )

@@ -217,7 +217,7 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
         let step_change = energy.step_change();
         if step_change.abs() > LARGEST_STEP_CHANGE {
             return Err(AttemptError::Unbalanced(self.lower_courant(format!(
-                "changes of the time step took {step_change:.2e} of the initial energy, above {LARGEST_STEP_CHANGE:e},"
+                "changes of the time step took {step_change:.2e} of the initial energy, above {LARGEST_STEP_CHANGE:e}"
             ))));
         }
         let (energy, momentum) = (energy.residual(), momentum.residual());
@@ -231,7 +231,7 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
         ] {
             if error.is_nan() || error.abs() > tolerance {
                 return Err(AttemptError::Unbalanced(self.lower_courant(format!(
-                    "the {quantity} balance does not close: its error is {error:.2e} of the initial {quantity}, above {tolerance:e},"
+                    "the {quantity} balance does not close: its error is {error:.2e} of the initial {quantity}, above {tolerance:e}"
                 ))));
             }
         }

@@ -37,5 +37,6 @@ impl FirstChoice {
             && self.targets.contains(&regime.target)
             && self.noses.contains(&NoseKind::of(scenario.projectile.nose))
             && classes
+            && scenario.brittle().is_empty()
     }
 }

@@ -6,6 +6,9 @@ use crate::{material::Material, scenario::Scenario, units::Temperature};
 /// Plastic strain that any impact reaches.
 const REACHED_STRAIN: f64 = 0.1;
 
+/// Difference from the temperature of a material's record that counts as none [K]: rooms differ by as much.
+const ROOM: f64 = 5.0;
+
 /// Why a model cannot take a body at its temperature, if it cannot.
 pub(super) fn reason(validity: &ValidityDomain, scenario: &Scenario) -> Option<String> {
     let rod = &scenario.projectile;
@@ -24,7 +27,7 @@ fn of_body(
     temperature: f64,
 ) -> Option<String> {
     let room = material.room_temperature;
-    if temperature == room.si() {
+    if (temperature - room.si()).abs() <= ROOM {
         return None;
     }
     let shown = Temperature::new(temperature);

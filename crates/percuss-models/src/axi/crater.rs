@@ -4,6 +4,7 @@ use super::{
     body::Body,
     field::{Field, VOLUME},
     mesh::Mesh,
+    remnant::outer_radius,
 };
 
 /// Part of a cell from which it counts as inside a body.
@@ -158,11 +159,7 @@ pub(super) fn outline(body: &Body, mesh: &Mesh) -> Vec<[f64; 2]> {
 
 /// Largest radius of a body [m]: that of its outermost particle and half of what the particle is wide.
 pub(super) fn largest_radius(body: &Body) -> f64 {
-    let edge = |particle: super::Particle| {
-        let radius = particle.position[0];
-        let section = particle.volume / (2.0 * std::f64::consts::PI * radius);
-        radius + 0.5 * section.sqrt()
-    };
     let present = body.particles().filter(|particle| particle.mass > 0.0);
-    present.map(edge).fold(0.0, f64::max)
+    let radii = present.map(|particle| outer_radius(&particle));
+    radii.fold(0.0, f64::max)
 }

@@ -18,6 +18,7 @@ mod localization;
 mod mesh;
 mod nodes;
 mod opening;
+mod remnant;
 mod results;
 mod run;
 mod setup;
@@ -31,7 +32,7 @@ use std::borrow::Cow;
 
 pub use crate::options::{AxiOptions, ContactKind, Edge, Eos};
 pub use crate::solver::Particle;
-pub use warnings::layers_that_cannot_fail;
+pub use warnings::{THROUGH_FIXED_FACE, layers_that_cannot_fail};
 
 use crate::{
     Error, Refusal, Scenario,
@@ -53,14 +54,19 @@ const RATE: f64 = 10e6;
 /// Steps of a run per cell along the radius, at the default Courant number: at least, and per diameter of the projectile's length.
 const STEPS: (f64, f64) = (21.0, 43.0);
 
-/// Metal targets that are not thin, where one dimension has no crater.
+/// Metal targets that are not thin, where one dimension has no crater, and walls, which spread the foot of a rod.
 const fn resolves(projectile: ProjectileRegime) -> FirstChoice {
     FirstChoice {
         projectile,
-        targets: TargetKind::DEEP,
+        targets: &[
+            TargetKind::SemiInfinite,
+            TargetKind::ThickPlate,
+            TargetKind::Plate,
+            TargetKind::RigidWall,
+        ],
         noses: NoseKind::ALL,
         target_material: MaterialClass::Metal,
-        because: "it resolves projectile and crater, and states the error of its mesh",
+        because: "it resolves projectile and target, and states the error of its mesh",
     }
 }
 

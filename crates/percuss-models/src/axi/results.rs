@@ -1,8 +1,8 @@
 //! From the state at the end of a run to its result.
 
-use super::{crater, run::Axisymmetric, setup::extent, solver::Grid};
+use super::{crater, remnant::Remnant, run::Axisymmetric, setup::extent, solver::Grid};
 use crate::{
-    outcome::{Detail, RunResult, Termination},
+    outcome::{Detail, Outcome, RunResult, Termination},
     scenario::TargetBody,
     shapes::Shapes,
     solver::{Particle, interface::Extremes, monitor::RunMonitor},
@@ -10,6 +10,9 @@ use crate::{
 
 /// Part of a cell by which a surface must lie below the original face to be a crater.
 const NOTICEABLE: f64 = 0.1;
+
+/// Part of a projectile below which what has come off it is not told apart: rounding of the sums.
+const WHOLE: f64 = 1e-9;
 
 /// Adds depths, what is left of the projectile, shapes and warnings.
 pub(super) fn complete(run: &Axisymmetric<'_>, result: &mut RunResult, monitor: &RunMonitor) {
@@ -25,11 +28,15 @@ pub(super) fn complete(run: &Axisymmetric<'_>, result: &mut RunResult, monitor: 
         result.largest_depth = Some(monitor.largest_depth);
         result.permanent_depth = Some(run.depth.max(0.0));
     }
-    result.residual_velocity = Some(if sums.mass > 0.0 {
-        sums.momentum / sums.mass
-    } else {
-        0.0
+    // Debris of a rod that has come through stays behind in the hole.
+    let debris = (result.outcome == Outcome::Perforated)
+        .then(|| Remnant::of(rod, &solver.mesh))
+        .flatten()
+        .filter(|piece| piece.mass < sums.mass * (1.0 - WHOLE));
+    let (mass, momentum) = debris.map_or((sums.mass, sums.momentum), |piece| {
+        (piece.mass, piece.momentum)
     });
+    result.residual_velocity = Some(if mass > 0.0 { momentum / mass } else { 0.0 });
     // The outline of particles lies within a part of a cell of the surface: what did not move keeps its size.
     let (length, diameter) = match result.termination {
         Termination::NothingMoves => (
@@ -38,12 +45,14 @@ pub(super) fn complete(run: &Axisymmetric<'_>, result: &mut RunResult, monitor: 
         ),
         _ => (
             crater::ends(rod, &solver.mesh).map(|(tail, tip)| tip - tail),
-            (sums.mass > 0.0).then(|| 2.0 * crater::largest_radius(rod)),
+            (mass > 0.0).then(|| {
+                2.0 * debris.map_or_else(|| crater::largest_radius(rod), |piece| piece.radius)
+            }),
         ),
     };
     result.projectile_final_length = length;
     result.projectile_final_diameter = diameter;
-    result.projectile_final_mass = Some(sums.mass);
+    result.projectile_final_mass = Some(mass);
     let shapes = Shapes {
         crater: if solid {
             crater::profile(&solver.bodies[1..], &solver.mesh, run.depth)
@@ -53,6 +62,13 @@ pub(super) fn complete(run: &Axisymmetric<'_>, result: &mut RunResult, monitor: 
         projectile: crater::outline(rod, &solver.mesh),
     };
     result.details = details(run, &shapes.crater);
+    if debris.is_some() {
+        result.details.push(Detail {
+            name: "debris of the projectile",
+            unit: "g",
+            value: (sums.mass - mass) * 1e3,
+        });
+    }
     result.shapes = Some(shapes);
     result.warnings = super::warnings::warnings(run, result);
 }

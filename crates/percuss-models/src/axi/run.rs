@@ -3,7 +3,14 @@
 use std::iter;
 
 use super::{
-    axial, body::Body, crater, end::Window, floor::Floor, results, setup::build, solver::Grid,
+    axial,
+    body::Body,
+    crater,
+    end::Window,
+    floor::Floor,
+    results,
+    setup::{build, cell},
+    solver::Grid,
 };
 use crate::{
     Error, Refusal, Scenario,
@@ -28,6 +35,8 @@ use crate::{
 
 /// Courant number below which a run is not repeated.
 const SMALLEST_COURANT: f64 = 0.1;
+/// Fewest cells along a projectile.
+const FEWEST_CELLS: f64 = 1.0;
 /// Part of the largest force so far below which bodies do not touch: nodes of the grid that two bodies share still exchange the impulses
 /// of what rings in them.
 const TOUCHING_FRACTION: f64 = 1e-2;
@@ -58,6 +67,14 @@ pub(super) type AxiRun<'a> = Drive<'a, Axisymmetric<'a>>;
 /// Why a case inside the validity domain gets no number, if it does not.
 pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
     let options = &scenario.options.axi;
+    let cells = scenario.projectile.length / cell(scenario);
+    if cells < FEWEST_CELLS {
+        let needed = (FEWEST_CELLS / cells * f64::from(options.cells_per_radius())).ceil();
+        let refusal = Refusal::new(format!("the projectile is {cells:.2} cells long"));
+        return Some(
+            refusal.with_remedy(format!("give `axi.cells_per_radius = {needed}` or more")),
+        );
+    }
     let materials: Vec<(&Material, &str)> = materials(scenario).collect();
     if options.equation_of_state == Some(Eos::MieGruneisen) {
         let lacking = materials

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     Scenario,
     material::Material,
-    outcome::RunResult,
+    outcome::{Outcome, RunResult},
     problem::{Nose, RearFaceCondition},
 };
 
@@ -16,6 +16,13 @@ const TRANSFER: f64 = 0.1;
 
 /// Diameters of the projectile below which a target bends or bulges.
 const PLATE: f64 = 3.0;
+
+/// Fewest cells across a layer or along the projectile that resolve how it bends.
+const FEWEST_CELLS: f64 = 2.0;
+
+/// Why a projectile behind a fixed rear face has no velocity.
+pub const THROUGH_FIXED_FACE: &str = "the projectile reaches the rear face, which is fixed (the default): nothing behind it is a result. \
+                                      Set `back_face = \"free\"`";
 
 /// Whether a target is a plate to its projectile.
 fn is_plate(scenario: &Scenario) -> bool {
@@ -79,22 +86,35 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
         }
     }
     let is_held = run.scenario.rear_face() == Some(RearFaceCondition::Fixed);
-    if is_held && is_plate(run.scenario) {
+    if is_held && result.outcome == Outcome::Perforated {
+        warnings.push(THROUGH_FIXED_FACE.to_owned());
+    } else if is_held && is_plate(run.scenario) {
         warnings.push(
-            "the plate can neither bend, bulge nor be perforated: its rear face is fixed (the default). Set `back_face = \"free\""
+            "the plate can neither bend, bulge nor be perforated: its rear face is fixed (the default). Set `back_face = \"free\"`"
                 .to_owned(),
         );
+    }
+    let cell = run.grid.mesh.cell;
+    let layers = run.scenario.layers().iter();
+    let thin = layers
+        .filter_map(|layer| layer.thickness)
+        .fold(f64::INFINITY, f64::min);
+    for (what, extent) in [
+        ("the projectile is", run.scenario.projectile.length),
+        ("the thinnest layer is", thin),
+    ] {
+        if extent < FEWEST_CELLS * cell {
+            warnings.push(format!(
+                "{what} {:.1} cells thick: raise `axi.cells_per_radius`",
+                extent / cell
+            ));
+        }
     }
     let options = &run.scenario.options.axi;
     let free = run.scenario.rear_face() == Some(RearFaceCondition::Free);
     let cannot_fail = layers_that_cannot_fail(run.scenario);
-    let brittle = unlike(run.scenario, |material| material.fracture.is_some());
-    if !brittle.is_empty() {
-        warnings.push(format!(
-            "{} is brittle, and cannot crack in `axi`: these are the numbers of a body that stays whole. `particles` breaks it",
-            brittle.join(", ")
-        ));
-    } else if free && options.damage.is_none() && !cannot_fail.is_empty() {
+    let brittle = !run.scenario.brittle().is_empty();
+    if free && options.damage.is_none() && !cannot_fail.is_empty() && !brittle {
         warnings.push(format!(
             "the target can be perforated by stretching and thinning alone, which takes more energy than failure: {} has no `damage` in its record. Give it, or `axi.failure_strain`",
             cannot_fail.join(", ")
@@ -105,7 +125,7 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
         .any(|(material, _)| material.damage.is_some());
     if free && is_plate(run.scenario) && can_fail && run.scenario.projectile.nose == Nose::Flat {
         warnings.push(
-            "whether a plate fails under a blunt nose is uncertain: limits by `axi` are 1.2 to 2.1 times those of `power_balance`; `percuss limit` \
+            "whether a plate fails under a blunt nose is uncertain: limits by `axi` are 1.3 to 2.1 times those of `power_balance`; `percuss limit` \
              gives both"
                 .to_owned(),
         );

@@ -106,6 +106,7 @@ const fn domain(
         targets,
         predicts: &[BandQuantity::ResidualVelocity],
         oblique_noses: NoseKind::ALL,
+        breaks_brittle: true,
         notes: &[
             "`space`: plane strain or plane stress, where the projectile is a strip and results are per metre of width, or three dimensions",
             "springs: a rigid projectile on one elastic plate, or an elastic strip or rod on a rigid wall; bonds break where the material has \

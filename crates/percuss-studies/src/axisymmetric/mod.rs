@@ -30,9 +30,10 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::{
-    Error, Scenario,
+    Error, Scenario, axi,
     model::{self, Control, Model},
     outcome::{BandQuantity, Outcome, RunResult},
+    problem::RearFaceCondition,
     richardson::OnMesh,
     scenario::TargetBody,
     solver::frames::Frame,
@@ -40,8 +41,8 @@ use crate::{
 
 pub use cost::{BUDGET, seconds};
 pub use limit::{HIGHEST_ORDER, MeshLimit, limit};
-pub(crate) use plan::too_costly;
 pub use plan::{Plan, ReferenceMeshes, Request, plan};
+pub(crate) use plan::{on_cells, too_costly};
 
 /// Name of the model.
 pub const MODEL: &str = "axi";
@@ -65,6 +66,8 @@ pub struct AxisymmetricAnswer {
     pub value: Option<f64>,
     /// Half width of its discretisation uncertainty ([`limit`]). The error of models and data of the materials is not part of it.
     pub uncertainty: Option<f64>,
+    /// Why the value is not one to use, if it is not.
+    pub doubt: Option<String>,
     /// Observed order of convergence, where the value is extrapolated.
     pub order: Option<f64>,
     /// Depth of penetration: the limit where it is the main number, otherwise that of the finest mesh.
@@ -75,6 +78,8 @@ pub struct AxisymmetricAnswer {
     pub projectile_final_length_mm: Option<f64>,
     /// Results of the meshes, from coarse to fine.
     pub meshes: Vec<MeshResult>,
+    /// Limitations of the run on the finest mesh.
+    pub warnings: Vec<String>,
     /// Result of the finest mesh; not in JSON.
     #[serde(skip)]
     pub finest: Option<Box<RunResult>>,
@@ -201,6 +206,9 @@ pub fn answer_with_frames(
     }
     let mut found = AxisymmetricAnswer::of(scenario, plan.reference, meshes, &notes);
     found.finest = last.filter(|_| found.quantity.is_some()).map(Box::new);
+    if let Some(finest) = &found.finest {
+        found.warnings.clone_from(&finest.warnings);
+    }
     Ok(found)
 }
 
@@ -217,17 +225,6 @@ pub(crate) fn on_mesh(
 }
 
 impl AxisymmetricAnswer {
-    /// Why the value is not one to use, if the meshes do not settle it.
-    pub fn doubt(&self) -> Option<&'static str> {
-        match (self.value?, self.uncertainty) {
-            (_, None) => Some("the meshes differ in their outcome"),
-            (value, Some(error)) if error > value.abs() => {
-                Some("the error of the meshes is larger than the number")
-            }
-            _ => None,
-        }
-    }
-
     /// No answer, with the reason.
     pub fn without(reference: ReferenceMeshes, reason: impl Into<String>) -> Self {
         Self {
@@ -238,11 +235,13 @@ impl AxisymmetricAnswer {
             quantity: None,
             value: None,
             uncertainty: None,
+            doubt: None,
             order: None,
             depth_of_penetration_mm: None,
             residual_velocity_m_s: None,
             projectile_final_length_mm: None,
             meshes: Vec::new(),
+            warnings: Vec::new(),
             finest: None,
         }
     }
@@ -258,6 +257,13 @@ impl AxisymmetricAnswer {
         let Some(finest) = meshes.last().filter(|_| meshes.len() >= FEWEST) else {
             return Self::without(reference, note.unwrap_or_default());
         };
+        let is_held = scenario.rear_face() == Some(RearFaceCondition::Fixed);
+        if is_held && finest.outcome == Outcome::Perforated {
+            return Self {
+                meshes,
+                ..Self::without(reference, axi::THROUGH_FIXED_FACE)
+            };
+        }
         let quantity = main_number(scenario, finest.outcome);
         let on_meshes: Vec<OnMesh> = meshes
             .iter()
@@ -291,14 +297,43 @@ impl AxisymmetricAnswer {
             quantity: Some(quantity),
             value,
             uncertainty,
+            doubt: doubt(scenario, reference, value, uncertainty),
             order: limit.and_then(|limit| limit.order),
             depth_of_penetration_mm: of(BandQuantity::DepthOfPenetration),
             residual_velocity_m_s: of(BandQuantity::ResidualVelocity),
             projectile_final_length_mm: of(BandQuantity::ProjectileFinalLength),
             meshes,
+            warnings: Vec::new(),
             finest: None,
         }
     }
+}
+
+/// Why a value in the limit of meshes is not one to use: a material breaks, or the meshes do not settle it.
+fn doubt(
+    scenario: &Scenario,
+    meshes: ReferenceMeshes,
+    value: Option<f64>,
+    uncertainty: Option<f64>,
+) -> Option<String> {
+    let brittle = scenario.brittle();
+    if !brittle.is_empty() {
+        let ids = brittle.join(", ");
+        return Some(format!(
+            "{ids} is brittle, and stays whole in `{MODEL}`: `particles` breaks it"
+        ));
+    }
+    let reason = match (value?, uncertainty) {
+        (_, None) => "the meshes differ in their outcome",
+        (value, Some(error)) if error > value.abs() => {
+            "the error of the meshes is larger than the number"
+        }
+        _ => return None,
+    };
+    Some(match meshes {
+        ReferenceMeshes::Standard => format!("{reason}: take finer ones by `--reference fine`"),
+        ReferenceMeshes::Fine => reason.to_owned(),
+    })
 }
 
 /// Main number of a run with an outcome.

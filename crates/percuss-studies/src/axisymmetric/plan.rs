@@ -69,8 +69,15 @@ pub fn plan(
     budget: Option<f64>,
 ) -> Result<Plan, Refusal> {
     let axi = model::model(MODEL).map_err(|error| Refusal::new(error.to_string()))?;
-    model::applicability(axi, scenario)?;
     let all = reference.cells();
+    let applies = |cells| model::applicability(axi, &on_cells(scenario, cells));
+    if let Err(refusal) = applies(all[0]) {
+        let fine = ReferenceMeshes::Fine;
+        return Err(match applies(fine.cells()[0]) {
+            Ok(_) => refusal.with_remedy(self::remedy(fine)),
+            Err(_) => refusal,
+        });
+    }
     // The meshes are run side by side.
     let memory = all.map(|cells| axi.estimate(&on_cells(scenario, cells)).memory);
     if let Some(refusal) = memory::refusal(memory.iter().sum()) {
@@ -111,7 +118,7 @@ fn remedy(reference: ReferenceMeshes) -> String {
 }
 
 /// A case on a mesh.
-pub(super) fn on_cells(scenario: &Scenario, cells_per_radius: u32) -> Scenario {
+pub(crate) fn on_cells(scenario: &Scenario, cells_per_radius: u32) -> Scenario {
     let mut scenario = scenario.clone();
     scenario.options.axi.cells_per_radius = Some(cells_per_radius);
     scenario

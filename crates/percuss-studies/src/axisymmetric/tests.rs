@@ -145,7 +145,11 @@ fn on_a_rigid_wall_the_final_length_is_the_main_number() {
 
 #[test]
 fn meshes_that_disagree_on_perforation_have_no_uncertainty() {
-    let scenario = scenario(BALL);
+    let held = scenario(BALL);
+    let mut scenario = held.clone();
+    if let TargetBody::Layers { back_face, .. } = &mut scenario.target {
+        *back_face = RearFaceCondition::Free;
+    }
     let mesh = |cells_per_radius, outcome, depth, velocity| MeshResult {
         cells_per_radius,
         outcome,
@@ -165,16 +169,25 @@ fn meshes_that_disagree_on_perforation_have_no_uncertainty() {
     ]);
     assert_eq!(mixed.quantity, Some(BandQuantity::ResidualVelocity));
     assert_eq!((mixed.value, mixed.uncertainty), (Some(40.0), None));
-    assert_eq!(mixed.doubt(), Some("the meshes differ in their outcome"));
+    let doubt = mixed.doubt.unwrap();
+    assert!(
+        doubt.starts_with("the meshes differ in their outcome: take finer ones"),
+        "{doubt}"
+    );
+    // What has passed a fixed rear face is no result.
+    let meshes = vec![stopped, through];
+    let refused = AxisymmetricAnswer::of(&held, ReferenceMeshes::Standard, meshes, &[]);
+    assert_eq!((refused.quantity, refused.value), (None, None));
+    assert!(refused.reason.unwrap().contains("`back_face = \"free\"`"));
     let all = of(vec![mesh(4, Outcome::Perforated, None, 50.0), through]);
     assert!(all.uncertainty.unwrap() >= 20.0);
     assert_eq!(all.depth_of_penetration_mm, None);
-    assert_eq!(all.doubt(), None);
+    assert_eq!(all.doubt, None);
     // Meshes of one outcome that are far apart.
     let depth = |cells, depth| mesh(cells, Outcome::AtRest, Some(depth), 0.0);
     let apart = of(vec![depth(3, 6.1), depth(4, 5.9), depth(6, 20.1)]);
     assert!(apart.uncertainty.unwrap() > apart.value.unwrap());
-    assert!(apart.doubt().unwrap().contains("larger"));
+    assert!(apart.doubt.unwrap().contains("larger"));
 }
 
 #[test]

@@ -179,7 +179,10 @@ fn stamped(problem: &Problem, calibration: &Calibration, id: &str, material: Mat
             .cloned(),
     );
     Material {
-        name: format!("{}, calibrated", material.name),
+        name: match material.name.as_str() {
+            "" => format!("{id}, calibrated"),
+            name => format!("{name}, calibrated"),
+        },
         recommended: false,
         trust: Trust::User,
         sources: all,

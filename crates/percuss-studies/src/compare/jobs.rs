@@ -94,12 +94,12 @@ pub(super) fn memory(models: &[Entry<'_>], runs: &[(Scenario, Regime)]) -> f64 {
     pairs.fold(0.0, f64::max)
 }
 
-/// Runs every model at every velocity; the results of one velocity are consecutive.
+/// Runs every model at every velocity; the results of one velocity are consecutive. Beside each, why its number is not one to use.
 pub(super) fn run(
     models: &[Entry<'_>],
     runs: &[(Scenario, Regime)],
     observer: &mut Observer<'_>,
-) -> Result<Vec<ResultRecord>, Error> {
+) -> Result<Vec<(ResultRecord, Option<String>)>, Error> {
     let total = models.len() * runs.len();
     let board = Mutex::new(Board {
         fractions: vec![0.0; total],
@@ -126,7 +126,7 @@ fn run_one(
     scenario: &Scenario,
     regime: &Regime,
     update: impl Fn(f64) -> ControlFlow<()> + Sync,
-) -> Result<ResultRecord, Error> {
+) -> Result<(ResultRecord, Option<String>), Error> {
     let check = |flow: ControlFlow<()>| match flow {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(Error::Cancelled {
@@ -148,9 +148,12 @@ fn run_one(
                 ..Control::default()
             };
             match model::run_in(*model, scenario, regime, &mut control) {
-                Ok(result) => ResultRecord::in_regime(scenario, regime, &result),
+                Ok(result) => (ResultRecord::in_regime(scenario, regime, &result), None),
                 Err(stop @ Error::Cancelled { .. }) => return Err(stop),
-                Err(error) => ResultRecord::without_result(scenario, model.name(), &error),
+                Err(error) => {
+                    let record = ResultRecord::without_result(scenario, model.name(), &error);
+                    (record, None)
+                }
             }
         }
     };
@@ -165,11 +168,11 @@ fn axisymmetric_record(
     scenario: &Scenario,
     regime: &Regime,
     report: &mut (dyn FnMut(f64) -> ControlFlow<()> + Send),
-) -> Result<ResultRecord, Error> {
+) -> Result<(ResultRecord, Option<String>), Error> {
     let answer = request.answer(scenario, report)?;
     let Some((quantity, finest)) = answer.quantity.zip(answer.finest) else {
         let error = Error::not_applicable(MODEL, answer.reason.unwrap_or_default());
-        return Ok(ResultRecord::without_result(scenario, MODEL, &error));
+        return Ok((ResultRecord::without_result(scenario, MODEL, &error), None));
     };
     let band = answer.value.zip(answer.uncertainty);
     let band = band.map(|(value, uncertainty)| Band {
@@ -178,8 +181,17 @@ fn axisymmetric_record(
         high: value + uncertainty,
         basis: "discretisation uncertainty",
     });
-    let record = ResultRecord::in_regime(scenario, regime, &finest);
-    Ok(record.with_main_number(quantity, answer.value, band))
+    let mut record = ResultRecord::in_regime(scenario, regime, &finest).with_main_number(
+        quantity,
+        answer.value,
+        band,
+    );
+    if let Some(doubt) = &answer.doubt {
+        record
+            .warnings
+            .insert(0, format!("not to be relied on: {doubt}"));
+    }
+    Ok((record, answer.doubt))
 }
 
 /// Part of a run that says that it has ended: what runs say of themselves stays within 1.

@@ -119,10 +119,17 @@ pub fn compare(
         .iter()
         .zip(results.chunks(models.len().max(1)))
         .map(|((scenario, regime), results)| {
-            let given: Vec<_> = results.iter().map(ResultRecord::given).collect();
+            let given: Vec<_> = results
+                .iter()
+                .map(|(record, doubt)| match doubt {
+                    Some(doubt) => Err(doubt.as_str()),
+                    None => record.given(),
+                })
+                .collect();
             recommend(&models, scenario, regime, &given)
         })
         .collect();
+    let results: Vec<ResultRecord> = results.into_iter().map(|(record, _)| record).collect();
     Ok(Comparison {
         case: scenario.name.clone(),
         percuss_version: env!("CARGO_PKG_VERSION"),

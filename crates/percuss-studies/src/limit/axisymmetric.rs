@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     Error, Scenario, axi,
-    axisymmetric::{MODEL, ReferenceMeshes, Request, limit, seconds, too_costly},
+    axisymmetric::{MODEL, ReferenceMeshes, Request, limit, on_cells, seconds, too_costly},
     model::{self, Model},
     richardson::OnMesh,
 };
@@ -84,6 +84,10 @@ pub(super) fn on_meshes(
     if let Some((_, reason)) = run_results::unsuited(axi, scenario) {
         return Ok(without(reason));
     }
+    let coarsest = on_cells(scenario, reference.cells()[0]);
+    if let Err(refusal) = model::applicability(axi, &coarsest) {
+        return Ok(without(refusal.to_string()));
+    }
     let highest = search.range.to;
     let closer = search.tolerance.at(highest) < BRACKET * highest;
     let search = &Search {
@@ -120,8 +124,7 @@ pub(super) fn on_meshes(
     let mut found: Vec<(u32, ModelLimit)> = Vec::new();
     let mut before = 0.0;
     for (cells, cost) in cells.into_iter().zip(costs) {
-        let mut scenario = scenario.clone();
-        scenario.options.axi.cells_per_radius = Some(cells);
+        let scenario = on_cells(scenario, cells);
         let runs = found.iter().map(|(_, entry)| entry.runs).sum();
         let first = match found.last() {
             None => beside,

@@ -18,7 +18,7 @@ use super::Run;
 use crate::{
     response::ProgressCallback,
     result_table,
-    terminal::{bold, paragraph},
+    terminal::{bold, paragraph, warning},
     workers::unless_stopped,
 };
 
@@ -101,13 +101,9 @@ pub(super) fn text(
         }
         return text;
     };
-    let (standing, advice) = match (answer.doubt(), answer.reference) {
-        (None, _) => ("the number to use", String::new()),
-        (Some(doubt), ReferenceMeshes::Standard) => (
-            "not settled",
-            paragraph(&format!("{doubt}: take finer ones by `--reference fine`")),
-        ),
-        (Some(doubt), ReferenceMeshes::Fine) => ("not settled", paragraph(doubt)),
+    let (standing, advice) = match &answer.doubt {
+        None => ("the number to use", String::new()),
+        Some(doubt) => ("not to be relied on", paragraph(doubt)),
     };
     let mut text = format!(
         "\n{}\n{advice}{}",
@@ -116,6 +112,11 @@ pub(super) fn text(
     );
     if let Some(note) = &answer.note {
         text += &paragraph(note);
+    }
+    // The model beside it has said the same of the case.
+    let own = answer.warnings.iter();
+    for said in own.filter(|said| !record.warnings.contains(said)) {
+        text += &format!("\n{}", warning(said));
     }
     text
 }
