@@ -1,6 +1,7 @@
 //! Figures versus time.
 
 use percuss::{
+    fdm::Geometry,
     history::{ElementState, History, Sample},
     outcome::{PLANE_IMPACT, RunResult},
     units::significant,
@@ -75,10 +76,21 @@ pub(crate) fn velocity(history: &History, result: &RunResult, caption: &str) -> 
     )
     .series(series("tip", history, |s| s.tip_velocity).width(UNDER))
     .series(series("tail", history, |s| s.tail_velocity));
+    // Plates have no crater; the free surface shows the shock, its release and the pull-back of a spall.
+    let planar = result.scheme == Geometry::Planar.name();
     if history.samples.iter().any(|s| s.interface_velocity != 0.0) {
-        let floor = series("crater floor", history, |s| s.interface_velocity);
+        let name = if planar {
+            "struck face"
+        } else {
+            "crater floor"
+        };
+        let floor = series(name, history, |s| s.interface_velocity);
         // It coincides with the tip while they are in contact.
         chart = chart.series(floor.style(Style::Dashed).width(RINGING));
+    }
+    if planar {
+        let back = series("rear face", history, |s| s.back_velocity);
+        chart = chart.series(back.width(RINGING));
     }
     let mean = series("projectile mean", history, |s| s.mean_velocity).color("#000000");
     with_time_to_rest(chart.series(mean), result)

@@ -31,7 +31,7 @@ use std::path::Path;
 use crate::{
     error::Error,
     input_file::{self, MAX_TABLE_BYTES},
-    material::MaterialTable,
+    material::{Material, MaterialTable},
 };
 
 pub use crate::units::UnitSystem;
@@ -44,6 +44,16 @@ pub struct Imported {
     pub records: MaterialTable,
     /// What the records leave out, a line each.
     pub warnings: Vec<String>,
+}
+
+impl Imported {
+    /// Adds a record; without a name of its own it has that of its id, as in a case.
+    pub(crate) fn add(&mut self, id: String, mut material: Material) {
+        if material.name.is_empty() {
+            material.name.clone_from(&id);
+        }
+        self.records.insert(id, material);
+    }
 }
 
 /// Reads the materials of a file.

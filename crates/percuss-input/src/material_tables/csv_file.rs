@@ -80,7 +80,7 @@ pub fn read_csv(file: &str, text: &str) -> Result<Imported, Error> {
             return Err(row.error(ID, message, "give it another id").into());
         }
         let material = material(&row, &columns)?;
-        found.records.insert(id, material);
+        found.add(id, material);
     }
     if found.records.is_empty() {
         let help = "write one row for each material below the names of the columns";

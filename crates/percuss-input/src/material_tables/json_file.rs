@@ -65,7 +65,7 @@ pub fn read_json(file: &str, text: &str) -> Result<Imported, Error> {
         if let Some(first) = diagnostics.into_iter().next() {
             return Err(failed(&first.key, first.message, first.help));
         }
-        found.records.insert(id, material);
+        found.add(id, material);
     }
     if found.records.is_empty() {
         let message = "the file holds no material".to_owned();

@@ -44,6 +44,18 @@ fn units_stand_in_the_cell_or_in_the_name_of_the_column() {
 }
 
 #[test]
+fn a_record_without_a_name_has_that_of_its_id() {
+    let text = "id,density,youngs_modulus,poissons_ratio,strength.perfectly_plastic.flow_stress\n\
+                foam,30 kg/m3,20 MPa,0.1,400 kPa\n";
+    let read = read_csv("a.csv", text).unwrap();
+    assert_eq!(read.records["foam"].name, "foam");
+    let json = json(&read.records)
+        .unwrap()
+        .replace("\"foam\",\n", "\"\",\n");
+    assert_eq!(read_json("a.json", &json).unwrap().records, read.records);
+}
+
+#[test]
 fn other_columns_are_named_and_not_read() {
     let text = "id,name,density,youngs_modulus,poissons_ratio,strength.perfectly_plastic.flow_stress,price\n\
                 foam,Foam,30 kg/m3,20 MPa,0.1,400 kPa,12\n";

@@ -215,6 +215,11 @@ impl Answer {
             .last()
             .map(|mesh| main_number(scenario, mesh.outcome));
         let quantity = last.unwrap_or(BandQuantity::DepthOfPenetration);
+        let said: Vec<&str> = [&answer.doubt, &answer.note]
+            .into_iter()
+            .filter_map(|text| text.as_deref())
+            .collect();
+        let said = (!said.is_empty()).then(|| said.join("; "));
         Self {
             cells,
             quantity,
@@ -228,7 +233,7 @@ impl Answer {
             headline: headline(&answer),
             rows: rows(&answer, None),
             reason: answer.reason,
-            note: answer.note,
+            note: said,
         }
     }
 }
