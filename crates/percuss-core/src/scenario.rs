@@ -277,7 +277,7 @@ impl Scenario {
         }
     }
 
-    /// Ids of the materials that are brittle, each once: those with a fracture energy and no law of concrete.
+    /// Ids of the materials that are brittle, each once: those with data of fracture.
     pub fn brittle(&self) -> Vec<&str> {
         let rod = &self.projectile;
         let layers = self.layers().iter();

@@ -59,6 +59,9 @@ fn what_cannot_follow_the_temperature_refuses_it() {
         other => panic!("{other:?}"),
     };
     assert!(reason.contains("does not tell 718 K"), "{reason}");
+    // The record has 293 K.
+    assert!(run("copper-woodward", ", temperature = '20 celsius'").is_ok());
+    assert!(run("copper-woodward", ", temperature = '300 K'").is_err());
     let melted = run("etp-copper-johnson-cook", ", temperature = '1400 K'")
         .unwrap_err()
         .to_string();

@@ -34,7 +34,7 @@ pub struct Projectile {
     /// Angle between the axis and the path [rad]; only 0, which is the default: no model computes yaw.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub yaw: Option<Angle>,
-    /// Temperature before the impact [K]; `room_temperature` of the material when not given.
+    /// Temperature before the impact [K]; `room_temperature` of the material when not given. A difference of up to 5 K counts as none where the model or the strength law has no temperature.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub temperature: Option<Temperature>,
 }

@@ -18,7 +18,7 @@ pub struct Target {
     /// Thickness of a target of one layer, or `"semi-infinite"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<Thickness>,
-    /// Temperature before the impact [K], of all layers without their own; `room_temperature` of the material when not given.
+    /// Temperature before the impact [K], of all layers without their own; `room_temperature` of the material when not given. A difference of up to 5 K counts as none where the model or the strength law has no temperature.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub temperature: Option<Temperature>,
     /// Layers from the struck face to the back, instead of `material` and `thickness`.

@@ -29,11 +29,11 @@ pub(super) fn complete(run: &Axisymmetric<'_>, result: &mut RunResult, monitor: 
         result.permanent_depth = Some(run.depth.max(0.0));
     }
     // Debris of a rod that has come through stays behind in the hole.
-    let debris = (result.outcome == Outcome::Perforated)
+    let remnant = (result.outcome == Outcome::Perforated)
         .then(|| Remnant::of(rod, &solver.mesh))
         .flatten()
         .filter(|piece| piece.mass < sums.mass * (1.0 - WHOLE));
-    let (mass, momentum) = debris.map_or((sums.mass, sums.momentum), |piece| {
+    let (mass, momentum) = remnant.map_or((sums.mass, sums.momentum), |piece| {
         (piece.mass, piece.momentum)
     });
     result.residual_velocity = Some(if mass > 0.0 { momentum / mass } else { 0.0 });
@@ -46,7 +46,7 @@ pub(super) fn complete(run: &Axisymmetric<'_>, result: &mut RunResult, monitor: 
         _ => (
             crater::ends(rod, &solver.mesh).map(|(tail, tip)| tip - tail),
             (mass > 0.0).then(|| {
-                2.0 * debris.map_or_else(|| crater::largest_radius(rod), |piece| piece.radius)
+                2.0 * remnant.map_or_else(|| crater::largest_radius(rod), |piece| piece.radius)
             }),
         ),
     };
@@ -62,7 +62,7 @@ pub(super) fn complete(run: &Axisymmetric<'_>, result: &mut RunResult, monitor: 
         projectile: crater::outline(rod, &solver.mesh),
     };
     result.details = details(run, &shapes.crater);
-    if debris.is_some() {
+    if remnant.is_some() {
         result.details.push(Detail {
             name: "debris of the projectile",
             unit: "g",
