@@ -187,6 +187,26 @@ fn debris_in_the_hole_does_not_slow_what_is_left_of_a_rod() {
 }
 
 #[test]
+fn a_projectile_thinner_than_a_cell_is_refused() {
+    let flyer = |cells: u32| {
+        let case = scenario(&format!(
+            r#"
+            projectile = {{ material = "6061-t6", length = "2 mm", diameter = "50 mm", impact_velocity = "400 m/s" }}
+            target = {{ material = "ofhc", thickness = "6 mm", back_face = "free" }}
+            axi = {{ cells_per_radius = {cells} }}
+            "#
+        ));
+        model::applicability(model::model("axi").unwrap(), &case)
+    };
+    let refusal = flyer(8).unwrap_err().to_string();
+    assert!(
+        refusal.contains("0.64 cells long") && refusal.contains("cells_per_radius = 13"),
+        "{refusal}"
+    );
+    assert!(flyer(13).is_ok());
+}
+
+#[test]
 fn brittle_targets_are_named_that_cannot_crack() {
     let result = axi(r#"
         projectile = { material = "4340-johnson-cook", length = "4 mm", diameter = "4 mm", impact_velocity = "50 m/s" }

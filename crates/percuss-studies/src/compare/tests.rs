@@ -470,3 +470,38 @@ fn the_axisymmetric_answer_is_an_entry_with_its_range() {
     let reason = refused.reason.unwrap();
     assert!(reason.contains("processor time") && !is_first, "{reason}");
 }
+
+/// Ceramics break, and only `particles` breaks them: others warn, and none is recommended, whatever its meshes say.
+#[test]
+fn no_model_that_keeps_brittle_materials_whole_is_recommended() {
+    let scenario = case::load_str(
+        "tile",
+        r#"
+        projectile = { material = "4340-johnson-cook", length = "8 mm", diameter = "8 mm", impact_velocity = "300 m/s" }
+        target = { material = "alumina", thickness = "8 mm", back_face = "free" }
+        "#,
+    )
+    .unwrap();
+    let chain = model::model("chain").unwrap();
+    let meshes = Some(Request::default());
+    let found = compare(
+        &[chain],
+        meshes,
+        &scenario,
+        &[300.0],
+        &mut Observer::default(),
+    )
+    .unwrap();
+    assert!(found.recommended[0].models.is_empty());
+    for record in &found.results {
+        assert!(record.is_result());
+        assert!(
+            record
+                .warnings
+                .iter()
+                .any(|said| said.contains("stays whole in this model"))
+        );
+    }
+    let axi = &found.results[0].warnings[0];
+    assert!(axi.starts_with("not to be relied on: alumina"), "{axi}");
+}
