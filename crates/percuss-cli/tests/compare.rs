@@ -103,7 +103,11 @@ fn json_extends_the_object_of_run() {
     assert_eq!(object["regime"][0]["projectile"], "deforming");
     assert_eq!(object["regime"][0]["target"], "rigid_wall");
     let recommended = object["recommended"][0]["models"].as_array().unwrap();
-    assert!(recommended.iter().any(|choice| choice["model"] == "chain"));
+    let names: Vec<_> = recommended
+        .iter()
+        .map(|choice| choice["model"].as_str())
+        .collect();
+    assert_eq!(names, [Some("axi"), Some("chain")]);
     assert_eq!(object["quantities"][0], "projectile_final_length_mm");
     assert_eq!(
         object["experiments"][1]["uncertainty"]

@@ -11,15 +11,21 @@ const LENGTH: f64 = 0.002;
 const PERIMETER: f64 = 0.06;
 
 fn law(chain: &str) -> Result<BandLaw, Refusal> {
+    law_of("weldox-460-e", chain, "")
+}
+
+/// The law of a plate, with materials of its own.
+fn law_of(plate: &str, chain: &str, materials: &str) -> Result<BandLaw, Refusal> {
     let scenario = case::load_str(
         "band",
         &format!(
             r#"
             projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "{SPEED} m/s" }}
-            target = {{ material = "weldox-460-e", thickness = "12 mm", back_face = "free" }}
+            target = {{ material = "{plate}", thickness = "12 mm", back_face = "free" }}
             [chain]
             border_shear_law = "shear-band"
             {chain}
+            {materials}
             "#
         ),
     )
@@ -153,28 +159,18 @@ fn a_constant_strength_takes_its_work() {
 #[test]
 fn damage_sees_the_rate_where_strength_does() {
     let slip_at_end = |d4: f64, rate_effects: bool| {
-        let scenario = case::load_str(
-            "band",
-            &format!(
-                r#"
-                projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "{SPEED} m/s" }}
-                target = {{ material = "plate", thickness = "12 mm", back_face = "free" }}
-                chain = {{ border_shear_law = "shear-band", rate_effects = {rate_effects}, shear_band = {{ width = "0.2 mm" }} }}
-                [materials.plate]
-                name = "plate"
-                density = "7850 kg/m3"
-                youngs_modulus = "200 GPa"
-                poissons_ratio = 0.33
-                strength.perfectly_plastic = {{ flow_stress = "600 MPa" }}
-                damage = {{ d1 = 0.3, d2 = 0.2, d3 = -1.5, d4 = {d4} }}
-                "#
-            ),
-        )
-        .unwrap_or_else(|error| panic!("{error}"));
-        let TargetBody::Layers { layers, .. } = &scenario.target else {
-            panic!("no plate");
-        };
-        let law = BandLaw::new(&layers[0], 0.01, SPEED, &scenario.options.chain).unwrap();
+        let chain = format!("rate_effects = {rate_effects}\nshear_band = {{ width = '0.2 mm' }}");
+        let plate = format!(
+            r#"
+            [materials.plate]
+            density = "7850 kg/m3"
+            youngs_modulus = "200 GPa"
+            poissons_ratio = 0.33
+            strength.perfectly_plastic = {{ flow_stress = "600 MPa" }}
+            damage = {{ d1 = 0.3, d2 = 0.2, d3 = -1.5, d4 = {d4} }}
+            "#
+        );
+        let law = law_of("plate", &chain, &plate).unwrap();
         assert!(matches!(law.failure, Failure::Damage(_)));
         let [slip, _] = *slide(law, 1.0).2.last().unwrap();
         slip
