@@ -5,7 +5,7 @@ use std::str::FromStr;
 use percuss::{
     Scenario,
     check::limits::IMPACT_VELOCITY,
-    statistics::sorted,
+    statistics::{evenly, sorted},
     units::{Dimension, OfVelocity, significant},
 };
 
@@ -117,12 +117,8 @@ fn range(from: &str, rest: &str) -> Result<Vec<f64>, SpeedsError> {
         .filter(|count| (2..=MOST as u32).contains(count))
         .map(|count| count - 1)
         .ok_or_else(|| SpeedsError::Count(count.trim().to_owned()))?;
-    let at = |i: u32| {
-        // This form gives both ends exactly.
-        let part = f64::from(i) / f64::from(intervals);
-        first * (1.0 - part) + last * part
-    };
-    Ok((0..=intervals).map(at).collect())
+    // The numbers of a sweep with `linear`: a column of velocities of one joins with that of the other.
+    Ok(evenly(first, last, u64::from(intervals)).collect())
 }
 
 fn list(text: &str) -> Result<Vec<f64>, SpeedsError> {

@@ -135,11 +135,11 @@ pub struct RunResult {
     pub termination: Termination,
     /// Depth of the crater floor below the original face when the projectile's momentum is used up [m].
     ///
-    /// The largest depth reached when the run ends before that; `None` for a rigid wall.
+    /// The largest depth reached when the run ends before that; `None` for a rigid wall and a perforated target.
     pub depth_of_penetration: Option<f64>,
-    /// Largest depth of the crater floor at any time, elastic deflection included [m]; `None` for a rigid wall.
+    /// Largest depth of the crater floor at any time, elastic deflection included [m]; `None` for a rigid wall and a perforated target.
     pub largest_depth: Option<f64>,
-    /// Depth that plastic flow and erosion leave once the load is gone [m].
+    /// Depth that plastic flow and erosion leave once the load is gone [m]; `None` for a perforated target.
     pub permanent_depth: Option<f64>,
     /// Mean speed of what is left of the projectile at the end, forward positive [m/s].
     pub residual_velocity: Option<f64>,

@@ -62,6 +62,18 @@ pub enum TargetKind {
 pub const THICK: f64 = 5.0;
 /// Thickness in projectile diameters below which a plate is called thin: below `√3/2`, plugging is favoured \[woodward1984\].
 pub const THIN: f64 = 0.866;
+/// Part by which rounding may move a ratio of two numbers that a case gives.
+const ROUNDING: f64 = 1e-9;
+
+/// Whether a positive number is at least another one, but for rounding: 50 mm are ten times 5 mm in any unit.
+pub fn at_least(value: f64, bound: f64) -> bool {
+    value >= bound * (1.0 - ROUNDING)
+}
+
+/// Whether a target is thinner than some diameters of the projectile, but for rounding.
+pub fn is_thinner(thickness: f64, diameters: f64, scenario: &Scenario) -> bool {
+    !at_least(thickness, diameters * scenario.projectile.diameter)
+}
 
 impl TargetKind {
     /// All of them.
@@ -87,8 +99,8 @@ impl TargetKind {
             TargetBody::Layers { layers, .. } if layers.len() > 1 => Self::Layered,
             TargetBody::Layers { .. } => match scenario.target_thickness() {
                 None => Self::SemiInfinite,
-                Some(h) if h >= THICK * scenario.projectile.diameter => Self::ThickPlate,
-                Some(h) if h < THIN * scenario.projectile.diameter => Self::ThinPlate,
+                Some(h) if !is_thinner(h, THICK, scenario) => Self::ThickPlate,
+                Some(h) if is_thinner(h, THIN, scenario) => Self::ThinPlate,
                 Some(_) => Self::Plate,
             },
         }

@@ -30,6 +30,14 @@ pub fn variance(values: &[f64]) -> f64 {
     squares / (values.len() as f64 - 1.0)
 }
 
+/// Numbers from one to another in so many even intervals; both ends are exact.
+pub fn evenly(from: f64, to: f64, intervals: u64) -> impl Iterator<Item = f64> {
+    (0..=intervals).map(move |i| match i {
+        i if i == intervals => to,
+        i => from + (to - from) * i as f64 / intervals as f64,
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

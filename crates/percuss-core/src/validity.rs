@@ -12,7 +12,7 @@ mod temperature;
 
 pub use first_choice::FirstChoice;
 pub use fitted_to::FittedTo;
-pub use fixed_rear_face::fixed_rear_face_warning;
+pub use fixed_rear_face::{THROUGH_FIXED_FACE, fixed_rear_face_warning};
 pub use nose_kind::NoseKind;
 pub use pushed_column::pushed_column_warning;
 pub use range::{Measure, Outside, Range};
@@ -149,7 +149,7 @@ impl ValidityDomain {
             } = scenario.target
         {
             let refusal = Refusal::new(
-                "it takes layers that lie on each other, without a gap, an `interface` or a `column_diameter` of their own",
+                "it takes layers that lie on each other, without a gap, a bonded `interface` or a `column_diameter` of their own",
             );
             let remedy = "use the model `chain`, or give one layer, or layers without these keys";
             return Applicability::refused(refusal.with_remedy(remedy));

@@ -46,11 +46,15 @@ fn unrecommended(limits: &Limits, range: &LimitRange) -> String {
     let [low, high] = [range.lowest_m_s, range.highest_m_s].map(|limit| significant(limit, 4));
     let mut found = (limits.results.iter()).filter(|entry| entry.ballistic_limit_m_s.is_some());
     match (found.next(), range.models) {
-        (Some(entry), 1) => format!(
-            "Ballistic limit {low} m/s ({}), model error not known{}",
-            entry.model,
-            from_measured(limits, range.lowest_m_s)
-        ),
+        (Some(entry), 1) => {
+            let error = entry.expected_error.as_ref();
+            format!(
+                "Ballistic limit {low} m/s ({}), model error {}{}",
+                entry.model,
+                error.map_or_else(|| "not known".to_owned(), |e| e.errors.describe()),
+                from_measured(limits, range.lowest_m_s)
+            )
+        }
         _ => format!("Ballistic limit {low} to {high} m/s: no model is recommended"),
     }
 }

@@ -127,7 +127,9 @@ impl ConvergenceStatus {
             coarse.value - fine.value,
         ];
         let largest = differences.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-        let spread = largest / fine.value.abs().max(coarse.value.abs());
+        // A value of 0 on the finest mesh has no fractions: the coarsest of the three then.
+        let whole = Some(fine.value).filter(|value| *value != 0.0);
+        let spread = largest / whole.unwrap_or(coarse.value).abs();
         let order = match trend([*coarse, *medium, *fine]) {
             Trend::Exact => return Some(Self::Exact),
             Trend::Diverging => return Some(Self::Diverging { spread }),

@@ -62,7 +62,8 @@ const PIN: [&str; 2] = [
     "material = 'hard', length = '20 mm', diameter = '10 mm', impact_velocity = '20 m/s'",
     "material = 'hard', thickness = '10 mm', back_face = 'free'",
 ];
-const HARD: &str = "materials.hard = { name = 'Elastic', density = '2500 kg/m3', youngs_modulus = '70 GPa', poissons_ratio = 0.22, strength.elastic = {} }";
+const HARD: &str = "materials.hard = { name = 'Elastic', density = '2500 kg/m3', youngs_modulus = '70 GPa', poissons_ratio = 0.22, strength.elastic = {}, \
+     fracture = { energy = '8 J/m2', tensile_strength = '41 MPa' } }";
 
 /// A strip of metal on a wall.
 const BAR: [&str; 2] = [
@@ -77,7 +78,14 @@ const OF_STRESS: &[&str] = &[
     "adiabatic_heating",
     "heat_fraction",
 ];
-const OF_SPRINGS: &[&str] = &["outline", "failure_criterion", "restitution", "friction"];
+const OF_SPRINGS: &[&str] = &[
+    "outline",
+    "failure_criterion",
+    "restitution",
+    "friction",
+    "amplitude",
+    "seed",
+];
 
 const TRIES: [Try; 15] = [
     Try {

@@ -518,6 +518,33 @@ fn a_flyer_plate_as_a_case() {
     assert!(!result.history.unwrap().profiles.is_empty());
 }
 
+/// Plastic work heats by the fraction that the case gives, and strength that falls with the temperature shows it.
+#[test]
+fn plastic_work_heats_a_flyer_by_its_fraction() {
+    let temperature = |chain: &str| {
+        let text = format!(
+            "{}
+[chain]\n{chain}",
+            shot(3.0, "ofhc-copper", 800.0, "")
+        );
+        let result = fdm_recorded(&text);
+        result.numerics().largest_temperature.1
+    };
+    let [none, half, usual, whole] = [
+        "adiabatic_heating = false",
+        "heat_fraction = 0.45",
+        "",
+        "heat_fraction = 1.0",
+    ]
+    .map(temperature);
+    assert_eq!(usual, temperature("heat_fraction = 0.9"));
+    assert!(
+        none < half && half < usual && usual < whole,
+        "{none} {half} {usual} {whole}"
+    );
+    assert!(((usual - none) / (half - none) / 2.0 - 1.0).abs() < 0.1);
+}
+
 /// Symmetric impact: each body is a piston at half the speed, whose exact stress is known. The start-up of the artificial viscosity, an
 /// overshoot of 2 % on every mesh, is in none of the numbers.
 #[test]

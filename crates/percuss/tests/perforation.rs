@@ -306,6 +306,49 @@ const MODELS: [(&str, &str, f64); 9] = [
     ("power_balance", OGIVE, 30.0),
 ];
 
+/// Under a round nose limits of thinner plates did not fall with the thickness.
+#[test]
+fn plates_that_tear_are_not_for_the_balance_of_power() {
+    let of = |nose: &str, thickness: f64| scenario(nose, 300.0, thickness, METAL, "");
+    for nose in ["\"hemisphere\"", CONE, OGIVE] {
+        let words = refusal("power_balance", &of(nose, 4.9));
+        assert!(words.contains("stretches under a round"), "{words}");
+        for (thickness, is_warned) in [(5.0, true), (9.9, true), (10.0, false)] {
+            let warnings = run("power_balance", &of(nose, thickness)).warnings;
+            let found = warnings.iter().any(|w| w.contains("its limit is too high"));
+            assert_eq!(found, is_warned, "{nose} {thickness}: {warnings:?}");
+        }
+    }
+    run("power_balance", &of("\"flat\"", 4.0));
+}
+
+#[test]
+fn a_perforated_target_has_no_depth() {
+    for (model, options) in [
+        ("chain", ""),
+        ("chain", "chain.target_resistance = 'column'"),
+        ("fdm", ""),
+        ("axi", "axi.cells_per_radius = 3"),
+        ("power_balance", ""),
+    ] {
+        let text = format!(
+            r#"
+            projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "400 m/s" }}
+            target = {{ material = "weldox-460-e", thickness = "8 mm", back_face = "free" }}
+            {options}
+            "#
+        );
+        let result = run(model, &case::load_str("plate", &text).unwrap());
+        assert_eq!(result.outcome, Outcome::Perforated, "{model} {options}");
+        let depths = [
+            result.depth_of_penetration,
+            result.largest_depth,
+            result.permanent_depth,
+        ];
+        assert_eq!(depths, [None; 3], "{model} {options}");
+    }
+}
+
 /// The limit that a model predicts, or the one that it starts from.
 fn limit(result: &RunResult) -> f64 {
     let predicted = result.ballistic_limit;

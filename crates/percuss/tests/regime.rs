@@ -199,3 +199,31 @@ fn nose_factors_meet_where_shapes_do() {
     );
     assert!((nose_factor(Nose::Ogive { crh: 3.0 }) - 23.0 / 216.0).abs() < 1e-15);
 }
+
+/// A rod of ten diameters is one in any size: its ratio, over the mass and the density, is 10 but for rounding.
+#[test]
+fn a_bound_of_a_range_belongs_to_it_in_every_size() {
+    let tate = percuss::model::model("tate").unwrap();
+    let text = |length: f64, diameter: f64| {
+        format!(
+            "projectile = {{ material = 'tungsten-alloy', length = '{length} mm', diameter = '{diameter} mm', impact_velocity = '1500 m/s' }}\n\
+             target = {{ material = '4340', thickness = '{} mm', back_face = 'free' }}",
+            5.0 * diameter
+        )
+    };
+    for size in 1..40 {
+        let diameter = 0.5 * f64::from(size);
+        for (ratio, is_inside) in [(10.0, true), (9.999, false)] {
+            let scenario = case::load_str("rod", &text(ratio * diameter, diameter)).unwrap();
+            let mut ranges = tate.validity().ranges.iter();
+            let outside = ranges.find_map(|range| range.diagnostic(&scenario));
+            assert_eq!(
+                outside.is_none(),
+                is_inside,
+                "{ratio} {diameter} mm: {outside:?}"
+            );
+            let target = Regime::of(&scenario).target;
+            assert_eq!(target, TargetKind::ThickPlate, "{diameter} mm");
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! Defaults of options: one value for runs, for the schema, and for all that is made of the schema.
 
-use schemars::Schema;
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -32,6 +32,21 @@ macro_rules! defaults {
 }
 
 pub(crate) use defaults;
+
+/// Whether options have no value but their defaults. A default that depends on something else counts as none.
+pub(super) fn are_default<T: Default + PartialEq + Serialize + JsonSchema>(options: &T) -> bool {
+    if *options == T::default() {
+        return true;
+    }
+    let mut schema = schemars::schema_for!(T);
+    let Ok(Value::Object(given)) = serde_json::to_value(options) else {
+        return false;
+    };
+    given.iter().all(|(key, value)| {
+        value.is_null()
+            || property(&mut schema, key).is_some_and(|p| p.get("default") == Some(value))
+    })
+}
 
 /// Writes the default of a key.
 pub(super) fn set(schema: &mut Schema, key: &str, default: impl Serialize) {

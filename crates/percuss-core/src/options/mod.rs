@@ -109,10 +109,10 @@ macro_rules! model_options {
         }
 
         impl ModelOptions {
-            /// Whether a model has its default options, as one without any always has.
+            /// Whether a model has its default options, written or not, as one without any always has.
             pub fn are_default(&self, model: &str) -> bool {
                 match model {
-                    $(stringify!($name) => self.$name == Default::default(),)*
+                    $(stringify!($name) => defaults::are_default(&self.$name),)*
                     _ => true,
                 }
             }

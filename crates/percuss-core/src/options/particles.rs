@@ -477,7 +477,9 @@ impl ParticlesOptions {
     fn check_use(&self, check: &mut Check<'_>) {
         let irregular = match (self.packing, self.fracture) {
             (Some(packing), _) => packing == PackingKind::Irregular,
-            (None, fracture) => fracture != Some(false),
+            (None, fracture) => {
+                fracture != Some(false) && self.formulation() == Formulation::Springs
+            }
         };
         for (key, given) in [
             ("amplitude", self.amplitude.is_some()),

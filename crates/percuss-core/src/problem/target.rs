@@ -269,7 +269,9 @@ impl Layer {
 
     /// Whether anything is given that only a model with separate layers can take.
     fn is_separate(&self) -> bool {
-        self.gap.is_some() || self.interface.is_some() || self.column_diameter.is_some()
+        self.gap.is_some_and(|gap| gap.si() > 0.0)
+            || self.interface == Some(LayerInterface::Bonded)
+            || self.column_diameter.is_some()
     }
 
     fn check_joint(&self, is_first: bool, check: &mut Check<'_>) {
@@ -320,7 +322,7 @@ impl Target {
         }
     }
 
-    /// Whether a layer has a gap, an interface or a diameter of its own.
+    /// Whether a layer has a gap, is bonded or has a diameter of its own.
     pub fn has_separate_layers(&self) -> bool {
         self.layers.iter().any(Layer::is_separate)
     }

@@ -19,7 +19,7 @@ use std::borrow::Cow;
 
 use crate::{
     Error, Refusal, Scenario,
-    outcome::RunResult,
+    outcome::{Outcome, RunResult},
     regime::Regime,
     validity::{Applicability, ValidityDomain},
 };
@@ -175,6 +175,11 @@ pub fn complete(
         && let Some(reason) = model.validity().depth_at_back_face(scenario, depth)
     {
         return Err(refused(model, reason));
+    }
+    if result.outcome == Outcome::Perforated {
+        result.depth_of_penetration = None;
+        result.largest_depth = None;
+        result.permanent_depth = None;
     }
     result.warnings.splice(0..0, warnings);
     Ok(result)

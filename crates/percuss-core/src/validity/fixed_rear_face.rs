@@ -6,6 +6,10 @@ use crate::{
     scenario::{Scenario, TargetBody},
 };
 
+/// Why a projectile behind a fixed rear face has no velocity.
+pub const THROUGH_FIXED_FACE: &str = "the projectile reaches the rear face, which is fixed (the default): nothing behind it is a result. \
+                                      Set `back_face = \"free\"`";
+
 /// Warning of a fixed rear face behind a plate that is not thick: perforation is impossible.
 pub fn fixed_rear_face_warning(scenario: &Scenario) -> Option<String> {
     let TargetBody::Layers {

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::{
     material::tensile_strength,
-    regime::STRENGTH_STRAIN,
+    regime::{STRENGTH_STRAIN, at_least},
     scenario::{Scenario, TargetBody},
     units::significant,
 };
@@ -34,6 +34,16 @@ impl Range {
         because: "a thin plate fails by plugging or bending, and a column includes neither: it does not predict perforation",
     };
 
+    /// A warning on discs, for models of rods: `fdm.geometry = "planar"` computes them until release comes from the edge.
+    pub const ROD: Self = Self {
+        measure: Measure::FlatRodLengthToDiameter,
+        min: 0.5,
+        max: f64::INFINITY,
+        outside: Outside::Warning,
+        because: "a disc stays in uniaxial strain until release comes from its edge, and the model is of uniaxial stress: give \
+                  `fdm.geometry = \"planar\"` to the model `fdm`",
+    };
+
     /// A warning on targets that are not much thicker than the projectile, for models whose resistance is that of an infinite body.
     pub const INFINITE_BODY: Self = Self {
         measure: Measure::ThicknessToDiameter,
@@ -56,7 +66,8 @@ impl Range {
     /// What is to be said of a case outside; `None` for a case inside, or without such a measure.
     pub fn diagnostic(&self, scenario: &Scenario) -> Option<String> {
         let value = self.measure.of(scenario)?;
-        (!(self.min..=self.max).contains(&value)).then(|| {
+        let is_inside = at_least(value, self.min) && at_least(self.max, value);
+        (!is_inside).then(|| {
             format!(
                 "{} is {}, and it takes {}: {}",
                 self.measure.describe(),

@@ -178,21 +178,22 @@ fn resolve_rod(case: &Case, library: &Library, check: &mut Check<'_>) -> Option<
     if is_molten(temperature, entry, "projectile.temperature", check) {
         return None;
     }
-    let derived: (&str, String, bool) = if given == "length" {
-        let inside = limits::MASS.allow(mass);
-        ("mass", Quantity::to_string(&Mass::new(mass)), inside)
+    let (derived, [value, min, max], is_allowed) = if given == "length" {
+        let limits = limits::MASS;
+        let words = [mass, limits.min, limits.max].map(|kg| Mass::new(kg).to_string());
+        ("mass", words, limits.allow(mass))
     } else {
-        let inside = (limits::LENGTH.min..=limits::LENGTH.max).contains(&length);
-        ("length", Quantity::to_string(&Length::new(length)), inside)
+        let limits = limits::LENGTH;
+        let words = [length, limits.min, limits.max].map(|m| Length::new(m).to_string());
+        ("length", words, limits.allow(length))
     };
-    if !derived.2 {
+    if !is_allowed {
         check.fail(
             &key,
+            format!("the {given} gives a {derived} of {value}, which is out of range"),
             format!(
-                "the {given} gives a {} of {}, which is out of range",
-                derived.0, derived.1
+                "allowed: {min} to {max}; check the units of length, mass, diameter and density"
             ),
-            "check the units of length, mass, diameter and density",
         );
         return None;
     }

@@ -7,6 +7,8 @@ use super::{
     list_value::ListValue,
     quantity_literal::QuantityLiteral,
 };
+use percuss_core::statistics::evenly;
+
 use crate::{check::Check, document::Renamed};
 
 /// Most values of one list.
@@ -211,16 +213,20 @@ impl Parameter {
             return Some(None);
         };
         let last = steps.count - 1;
-        let value = |i: u64| match i {
-            0 => from,
-            i if i == last => to,
-            i if kind == "linear" => from + (to - from) * i as f64 / last as f64,
-            i => {
-                let (low, high) = (libm::log(from), libm::log(to));
-                libm::exp(low + (high - low) * i as f64 / last as f64)
+        let values = match kind {
+            "linear" => evenly(from, to, last).collect(),
+            _ => {
+                let ends = (libm::log(from), libm::log(to));
+                let inside = evenly(ends.0, ends.1, last).enumerate();
+                let value = |(i, log): (usize, f64)| match i as u64 {
+                    0 => from,
+                    i if i == last => to,
+                    _ => libm::exp(log),
+                };
+                inside.map(value).collect()
             }
         };
-        Some(Some(Values::List((0..steps.count).map(value).collect())))
+        Some(Some(Values::List(values)))
     }
 
     fn distribution(

@@ -10,12 +10,16 @@ use crate::{
     outcome::{BandQuantity, RunResult},
     regime::{ProjectileRegime, TargetKind, nose_factor},
     solver::{Control, Model},
+    units::significant,
     validity::{FirstChoice, FittedTo, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 
 /// Rigid projectiles into concrete \[forrestal1994, li2003\].
 #[derive(Debug, Clone, Copy)]
 pub struct ForrestalConcrete;
+
+/// Diameter of the largest projectiles that the factor S was found on [m].
+const LARGEST_DIAMETER: f64 = 0.031;
 
 /// A rigid projectile and the concrete that resists it.
 #[derive(Debug, Clone, Copy)]
@@ -158,6 +162,14 @@ impl Model for ForrestalConcrete {
             detail("speed into the tunnel", "m/s", square.max(0.0).sqrt()),
             detail("depth to diameter", "", stop.depth / phases.diameter),
         ];
+        let has_own_factor = scenario.options.forrestal_concrete.s.is_some();
+        if !has_own_factor && phases.diameter > LARGEST_DIAMETER {
+            result.warnings.push(format!(
+                "the factor S was found on projectiles of 13 to 31 mm, and this one has {} mm: larger ones can go deeper; give \
+                 `forrestal_concrete.s` from tests of this size",
+                significant(phases.diameter * 1e3, 3)
+            ));
+        }
         if square <= 0.0 && scenario.impact_velocity > 0.0 {
             result.warnings.push(
                 "the projectile stops in the crater, where the depth rests on a force that grows linearly with depth".to_owned(),

@@ -32,7 +32,7 @@ use std::borrow::Cow;
 
 pub use crate::options::{AxiOptions, ContactKind, Edge, Eos};
 pub use crate::solver::Particle;
-pub use warnings::{THROUGH_FIXED_FACE, layers_that_cannot_fail};
+pub use warnings::layers_that_cannot_fail;
 
 use crate::{
     Error, Refusal, Scenario,

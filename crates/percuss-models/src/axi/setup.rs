@@ -14,7 +14,7 @@ use crate::{
     material::Material,
     options::{ContactKind, Edge},
     problem::{Nose, RearFaceCondition},
-    regime::THICK,
+    regime::{THICK, is_thinner},
     scenario::{Rod, TargetBody},
     solid::{Behaviour, Law},
     solver::{Control, Particle, estimate::expected_depth},
@@ -147,7 +147,7 @@ fn law(material: &Material, scenario: &Scenario) -> Law {
 /// Whether a target is so thick that its rear face is far from the crater.
 pub(super) fn is_thick(scenario: &Scenario) -> bool {
     let thickness = scenario.target_thickness();
-    thickness.is_none_or(|thickness| thickness >= THICK * scenario.projectile.diameter)
+    thickness.is_none_or(|thickness| !is_thinner(thickness, THICK, scenario))
 }
 
 /// Number of particles of a case before its nose is cut to shape, without building it.

@@ -9,6 +9,7 @@ use crate::{
     material::Material,
     outcome::{Outcome, RunResult},
     problem::{Nose, RearFaceCondition},
+    validity::THROUGH_FIXED_FACE,
 };
 
 /// Part of the energy lost between particles and grid that deserves a word.
@@ -19,10 +20,6 @@ const PLATE: f64 = 3.0;
 
 /// Fewest cells across a layer or along the projectile that resolve how it bends.
 const FEWEST_CELLS: f64 = 2.0;
-
-/// Why a projectile behind a fixed rear face has no velocity.
-pub const THROUGH_FIXED_FACE: &str = "the projectile reaches the rear face, which is fixed (the default): nothing behind it is a result. \
-                                      Set `back_face = \"free\"`";
 
 /// Whether a target is a plate to its projectile.
 fn is_plate(scenario: &Scenario) -> bool {

@@ -199,7 +199,7 @@ impl Model for Chain {
             Scheme::Conservative => ColumnRun::new(scenario, control)?.run(control)?,
             Scheme::Published => published::PublishedRun::new(scenario, control)?.run(control)?,
         };
-        Ok(with_warning_of_thin_plate(scenario, result))
+        Ok(with_warnings_of_shape(scenario, result))
     }
 
     fn explain(
@@ -212,7 +212,9 @@ impl Model for Chain {
     }
 }
 
-fn with_warning_of_thin_plate(scenario: &Scenario, mut result: RunResult) -> RunResult {
+fn with_warnings_of_shape(scenario: &Scenario, mut result: RunResult) -> RunResult {
+    let disc = Range::ROD.diagnostic(scenario);
+    result.warnings.splice(0..0, disc);
     if scenario.options.chain.border_shear_law() == BorderShearLaw::Friction {
         let thin = Range::COLUMN.diagnostic(scenario);
         result.warnings.splice(0..0, thin);
@@ -235,7 +237,7 @@ pub fn run_batch(
 ) -> Result<Vec<Result<RunResult, Error>>, Stopped> {
     let results = batch::run(scenarios, stop)?;
     let with_warnings = |(scenario, result): (&&Scenario, Result<RunResult, Error>)| {
-        result.map(|result| with_warning_of_thin_plate(scenario, result))
+        result.map(|result| with_warnings_of_shape(scenario, result))
     };
     Ok(scenarios.iter().zip(results).map(with_warnings).collect())
 }

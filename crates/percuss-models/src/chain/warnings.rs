@@ -8,7 +8,7 @@ use crate::{
     options::{BorderShearLaw, ErosionCriterion, TargetResistanceModel},
     outcome::{Outcome, RunResult},
     problem::RearFaceCondition,
-    regime::STRENGTH_STRAIN,
+    regime::{STRENGTH_STRAIN, THIN, is_thinner},
     scenario::{Plate, Scenario, TargetBody, modelled_thickness},
     units::{StrainRate, Temperature, Velocity, significant},
     validity::{fixed_rear_face_warning, pushed_column_warning},
@@ -18,6 +18,8 @@ const OUT_OF_TIME: &str =
     "the run was ended before the impact was over: raise `chain.end_time` or `chain.max_steps`";
 /// Section of the thickness of a plate that a crater may take before a support behind it matters.
 const FREE_OF_BACK_FACE: f64 = 0.5;
+/// Thickness in projectile diameters from which on a plate is far from the thin ones of a column.
+const NEAR_COLUMN: f64 = 1.0;
 /// Thickness in projectile diameters from which on dishing adds less than a tenth to the depth in the axisymmetric reference.
 const FREE_OF_DISHING: f64 = 3.0;
 
@@ -95,6 +97,15 @@ pub(super) fn warnings_of_cavity(
         );
     }
     warnings.extend(warning_of_rear_face(scenario, depth));
+    let thickness = scenario.target_thickness();
+    let diameter = scenario.projectile.diameter;
+    if let Some(thickness) = thickness.filter(|&h| is_thinner(h, NEAR_COLUMN, scenario)) {
+        warnings.push(format!(
+            "the plate is {} projectile diameters thick: below {THIN} the target resistance model is `column`, whose answer differs; compare \
+             both by `chain.target_resistance`",
+            significant(thickness / diameter, 3)
+        ));
+    }
     if scenario.gauges.iter().any(|gauge| gauge.position > 0.0) {
         warnings.push(
             "gauges in the target read the elastic far field of the crater: for waves in a bar set `chain.target_resistance = \"column\"` \
@@ -195,7 +206,7 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
         && scenario.options.chain.border_shear() > 0.0
     {
         warnings.push(format!(
-            "the depth depends on the target resistance model (constraint factor and border shear C = {}): `chain.border_shear = 0.0` \
+            "the result depends on the target resistance model (constraint factor and border shear C = {}): `chain.border_shear = 0.0` \
              gives the other end of the range",
             significant(scenario.options.chain.border_shear(), 4)
         ));

@@ -125,6 +125,7 @@ impl Model for Fdm {
             Geometry::Rod => {
                 let mut result = rod::RodRun::new(scenario, control)?.run(control)?;
                 result.warnings.extend(Range::COLUMN.diagnostic(scenario));
+                result.warnings.extend(Range::ROD.diagnostic(scenario));
                 if result.outcome != Outcome::Perforated {
                     result.warnings.extend(fixed_rear_face_warning(scenario));
                 }

@@ -121,9 +121,9 @@ pub fn recommend(
             notes.push(
                 match results.iter().filter(|result| result.is_ok()).count() {
                     0 => "no model gives a result",
-                    1 => "no model is the first choice for this kind of case; one gives a result",
+                    1 => "none of the models is the first choice for this kind of case; one gives a result",
                     _ => {
-                        "no model is the first choice for this kind of case: take the spread of those that give a result for \
+                        "none of the models is the first choice for this kind of case: take the spread of those that give a result for \
                           the uncertainty"
                     }
                 }

@@ -10,9 +10,8 @@ use super::{
     debris::ContactLaw,
     energy::BodySums,
     flight::Inertia,
-    fracture::Softening,
+    fracture::{Softening, Softenings},
     pieces::{Piece, root},
-    setup::Softenings,
     shape::{Rigid, Shape},
 };
 use crate::{
@@ -148,7 +147,7 @@ pub(super) trait Bonded<const D: usize>: Debug + Clone + Sync {
     /// As [`Archive::item`].
     fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), Error>;
 
-    /// Largest stretch of a bond that holds, over its length, and largest principal tension of a particle [Pa].
+    /// Largest stretch of a bond that holds, over the spacing, in space over its length, and largest principal tension of a particle [Pa].
     fn extremes(&self) -> (f64, f64);
     /// Why and with what remedy a run whose largest stretch of a bond is this one cannot go on, if it cannot.
     fn unbearable(&self, largest_stretch: f64) -> Option<(String, String)> {
@@ -159,7 +158,7 @@ pub(super) trait Bonded<const D: usize>: Debug + Clone + Sync {
         (largest_stretch > LARGEST_STRETCH).then(|| {
             (
                 format!(
-                    "a bond is stretched or shortened by {:.0} % of its length: {why},",
+                    "a bond is stretched or shortened by {:.0} % of the spacing: {why},",
                     100.0 * largest_stretch
                 ),
                 "lower `projectile.impact_velocity`, blunt the nose, or use another model"
@@ -191,10 +190,21 @@ pub(super) trait Bonded<const D: usize>: Debug + Clone + Sync {
             significant(tension * 1e-6, 3)
         )]
     }
-    /// Place of the particle of a row that is nearest to the axis.
-    fn axis_place(&self, row: usize) -> usize;
-    /// State of the particle nearest to the axis in a row, of a part of the case.
-    fn on_axis(&self, row: usize, part: usize) -> ElementState;
+    /// Place of a full row that is nearest to the axis.
+    fn middle_place(&self, row: usize) -> usize;
+    /// Particle of a row that is nearest to the axis; none in a row without particles.
+    fn nearest_to_axis(&self, row: usize) -> Option<At> {
+        let is_there = |place: &usize| self.mass_of(row, *place) > 0.0;
+        let middle = Some(self.middle_place(row)).filter(is_there);
+        let distance = |place: usize| from_axis(self.reference(row, place)).abs();
+        let place = middle.or_else(|| {
+            let places = (0..self.row_places()).filter(is_there);
+            places.min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
+        });
+        Some((row, place?))
+    }
+    /// State of a particle on the axis, of a part of the case.
+    fn on_axis(&self, at: At, part: usize) -> ElementState;
     /// A particle for pictures and files.
     fn particle(&self, row: usize, place: usize) -> Particle;
     /// Distance of a particle from the plane of the axis and the depth [m], and its velocity away from it [m/s]; none in a plane.
@@ -275,6 +285,12 @@ pub(super) trait Bonded<const D: usize>: Debug + Clone + Sync {
         self.bonds().filter(|&bond| self.is_broken(bond)).count()
     }
 
+    /// Whether no whole bond holds a particle.
+    fn is_loose(&self, row: usize, place: usize) -> bool {
+        let holds = |bond: Bond| self.weight(bond) > 0.0 && !self.is_broken(bond);
+        self.softening().is_some() && !self.bonds_of(row, place).any(holds)
+    }
+
     /// Whether a particle has all bonds of one inside, whole.
     fn is_held_all_round(&self, row: usize, place: usize) -> bool {
         let holds = |bond: &Bond| self.weight(*bond) > 0.0 && !self.is_broken(*bond);
@@ -345,6 +361,14 @@ pub(super) trait Bonded<const D: usize>: Debug + Clone + Sync {
                 }
             }
         }
+    }
+}
+
+/// Distance of a position from the axis [m], in a plane with its sign.
+pub(super) fn from_axis<const D: usize>(at: [f64; D]) -> f64 {
+    match &at[..D - 1] {
+        [x] => *x,
+        across => across.iter().map(|x| x * x).sum::<f64>().sqrt(),
     }
 }
 

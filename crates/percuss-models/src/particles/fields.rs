@@ -1,6 +1,13 @@
 //! Stresses of particles, and fields for pictures and files.
 
-use super::{body::Body, bonded::Bonded, lattice::ROW, run::Impact, setup, shape::Rigid};
+use super::{
+    body::Body,
+    bonded::{At, Bonded},
+    lattice::ROW,
+    run::Impact,
+    setup,
+    shape::Rigid,
+};
 use crate::{
     history::ElementState,
     solver::{Particle, frames::Bond},
@@ -62,16 +69,16 @@ pub(super) fn bonds<const D: usize>(
     body.bonds().map(of)
 }
 
-/// State of the particle nearest to the axis in every row.
+/// State of the particle nearest to the axis in every row that has particles.
 pub(super) fn along_axis<const D: usize>(body: &impl Bonded<D>, part: usize) -> Vec<ElementState> {
     (0..body.row_count())
-        .map(|row| body.on_axis(row, part))
+        .filter_map(|row| body.nearest_to_axis(row))
+        .map(|at| body.on_axis(at, part))
         .collect()
 }
 
-/// State of the particle nearest to the axis in a row.
-pub(super) fn on_axis(body: &Body, row: usize, part: usize) -> ElementState {
-    let place = body.axis_place(row);
+/// State of a particle on the axis.
+pub(super) fn on_axis(body: &Body, (row, place): At, part: usize) -> ElementState {
     let zz = stress(body, row, place)[1];
     let [start, now] = [body.reference(row, place)[1], body.position(row, place)[1]];
     ElementState {
@@ -81,7 +88,7 @@ pub(super) fn on_axis(body: &Body, row: usize, part: usize) -> ElementState {
         displacement: now - start,
         length: ROW * body.lattice.spacing,
         stress: -zz,
-        strain: -axial_strain(body, row),
+        strain: -axial_strain(body, (row, place)),
         plastic_strain: 0.0,
         diameter: body.width(),
         temperature: f64::NAN,
@@ -89,11 +96,13 @@ pub(super) fn on_axis(body: &Body, row: usize, part: usize) -> ElementState {
     }
 }
 
-/// Strain along the normal of the struck face, between the row before and the row behind.
-pub(super) fn axial_strain<const D: usize>(body: &impl Bonded<D>, row: usize) -> f64 {
-    let last = (row + 1).min(body.row_count() - 1);
-    let [(z, now), (next_z, next)] = [row.saturating_sub(1), last].map(|row| {
-        let place = body.axis_place(row);
+/// Strain along the normal of the struck face, between the row before and the row behind, where they have particles.
+pub(super) fn axial_strain<const D: usize>(body: &impl Bonded<D>, here: At) -> f64 {
+    let before = here.0.checked_sub(1);
+    let behind = Some(here.0 + 1).filter(|&row| row < body.row_count());
+    let [(z, now), (next_z, next)] = [before, behind].map(|row| {
+        let end = row.and_then(|row| body.nearest_to_axis(row));
+        let (row, place) = end.unwrap_or(here);
         let at = |position: [f64; D]| position[D - 1];
         (
             at(body.reference(row, place)),

@@ -4,9 +4,9 @@ use super::lattice::{Lattice, Solid};
 use crate::options::{FailureCriterion, Space};
 
 /// Least softening that is chosen by itself: abrupt bonds need far more energy than that of the fracture.
-pub(super) const LEAST_SOFTENING: f64 = 3.0;
+const LEAST_SOFTENING: f64 = 3.0;
 /// Largest one: beyond it forces change too little from step to step to matter.
-pub(super) const LARGEST_SOFTENING: f64 = 1e4;
+const LARGEST_SOFTENING: f64 = 1e4;
 /// Least softening with which the energy that a crack takes does not grow with the size of the body, where bonds fail by the principal stress.
 pub(super) const LEAST_BY_STRESS: f64 = 10.0;
 /// Rounds of the search for the softening, whose lattice factor depends on it.
@@ -75,13 +75,11 @@ pub(super) fn interpolated(table: Table, softening: f64) -> f64 {
     first + part * (second - first)
 }
 
-/// Softening with which a lattice has both the fracture energy and the tensile strength of a solid, not less than 1; below
-/// [`LEAST_SOFTENING`] the spacing is too large for both.
-pub(super) fn exact_softening(
+/// Softening times its lattice factor with which a lattice has both the fracture energy and the tensile strength of a solid.
+pub(super) fn exact_product(
     (solid, space): (Solid, Space),
     lattice: &Lattice,
     toughness: Toughness,
-    bonds: BondKind,
 ) -> f64 {
     let ratio = solid.poissons_ratio;
     let modulus = match space {
@@ -89,18 +87,33 @@ pub(super) fn exact_softening(
         Space::PlaneStress | Space::ThreeDimensional => solid.youngs_modulus,
     };
     // ½ k_n e₀² r = G_f d/(2 α), and a bond along the tension is strained by σ/E'.
-    let by_factor = modulus * modulus * toughness.energy
-        / (lattice.normal * lattice.spacing * toughness.strength * toughness.strength);
-    solved(by_factor, |softening| lattice_factor(bonds, softening))
+    modulus * modulus * toughness.energy
+        / (lattice.normal * lattice.spacing * toughness.strength * toughness.strength)
 }
 
-/// Softening that is a number over the lattice factor that belongs to it.
-pub(super) fn solved(number: f64, factor: impl Fn(f64) -> f64) -> f64 {
-    let mut softening = number;
-    for _ in 0..ROUNDS {
-        softening = 0.5 * (softening + number / factor(softening));
+/// Softening of the bonds of a case.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Softenings {
+    /// The one that is used.
+    pub(super) used: f64,
+    /// Spacing at which the least one has both the energy and the strength of the solid, over that of the case: less than 1 where the particles
+    /// are too far apart for both.
+    pub(super) fitting: f64,
+}
+
+impl Softenings {
+    /// The given softening, or the one whose product with its lattice factor is that of the solid.
+    pub(super) fn of(product: f64, factor: impl Fn(f64) -> f64, given: Option<f64>) -> Self {
+        let mut softening = product;
+        for _ in 0..ROUNDS {
+            softening = 0.5 * (softening + product / factor(softening));
+        }
+        Self {
+            used: given.unwrap_or(softening.clamp(LEAST_SOFTENING, LARGEST_SOFTENING)),
+            // The product is as one over the spacing.
+            fitting: product / (LEAST_SOFTENING * factor(LEAST_SOFTENING)),
+        }
     }
-    softening
 }
 
 impl Softening {

@@ -11,9 +11,9 @@ use super::{
     energy::BodySums,
     fields,
     flight::Inertia,
-    fracture::Softening,
+    fracture::{Softening, Softenings},
     run::Impact,
-    setup::{self, Softenings},
+    setup,
     shape::{Rigid, Shape},
     survey,
 };
@@ -199,13 +199,13 @@ impl Bonded<2> for Body {
         survey::extremes(self)
     }
 
-    fn axis_place(&self, row: usize) -> usize {
+    fn middle_place(&self, row: usize) -> usize {
         let column = -self.origin[0] / self.lattice.spacing - 0.5 * (row % 2) as f64;
         1 + column.round().max(0.0) as usize
     }
 
-    fn on_axis(&self, row: usize, part: usize) -> ElementState {
-        fields::on_axis(self, row, part)
+    fn on_axis(&self, at: At, part: usize) -> ElementState {
+        fields::on_axis(self, at, part)
     }
 
     fn particle(&self, row: usize, place: usize) -> Particle {

@@ -2,16 +2,17 @@
 
 use super::{
     bonded::Bonded,
-    fracture::{LEAST_BY_STRESS, LEAST_SOFTENING},
+    fracture::{LEAST_BY_STRESS, Softenings},
     run::{Impact, State},
-    setup,
     shape::Rigid,
 };
 use crate::{
     history::{ElementState, Sample},
     outcome::{Detail, Outcome, RunResult, Termination},
+    problem::RearFaceCondition,
     solver::{interface::Solver, monitor::RunMonitor},
     units::significant,
+    validity::THROUGH_FIXED_FACE,
 };
 
 /// Part of the impact velocity below which a projectile counts as stopped.
@@ -50,6 +51,7 @@ pub(super) fn outcome_at((velocity, impact): (f64, f64), termination: Terminatio
     let least = REST_FRACTION * impact;
     match termination {
         Termination::NothingMoves => Outcome::AtRest,
+        Termination::LeftTarget => Outcome::Perforated,
         Termination::EndTime | Termination::StepLimit => Outcome::OutOfTime,
         _ if velocity < -least => Outcome::Rebounded,
         _ if velocity > least => Outcome::Separated,
@@ -63,15 +65,12 @@ pub(super) fn sample<B: Bonded<D>, const D: usize>(
     monitor: &RunMonitor,
 ) -> Sample {
     let (body, state) = (&run.body, &run.state);
-    let last = body.row_count() - 1;
-    let at = |row: usize| {
-        let place = body.axis_place(row);
+    let [(front, front_velocity), (back, back_velocity)] = run.faces.map(|(row, place)| {
         (
             body.position(row, place)[D - 1],
             body.velocity(row, place)[D - 1],
         )
-    };
-    let ((front, front_velocity), (back, back_velocity)) = (at(0), at(last));
+    });
     let mut sample = Sample::default();
     sample.time = state.time;
     sample.step = run.clock().step;
@@ -238,6 +237,11 @@ fn warnings<B: Bonded<D>, const D: usize>(
             numbered(&idle)
         ));
     }
+    if result.outcome == Outcome::Perforated
+        && run.scenario.rear_face() == Some(RearFaceCondition::Fixed)
+    {
+        warnings.push(THROUGH_FIXED_FACE.to_owned());
+    }
     if result.outcome == Outcome::OutOfTime {
         warnings.push(
             "the run ended before the bodies parted: the residual velocity is that of the moment; raise `particles.end_time`"
@@ -250,12 +254,12 @@ fn warnings<B: Bonded<D>, const D: usize>(
 /// What a fracture answer depends on beside the material.
 fn fracture_warnings<B: Bonded<D>, const D: usize>(
     run: &Impact<'_, B, D>,
-    softenings: &setup::Softenings,
+    softenings: &Softenings,
 ) -> Vec<String> {
     let spacing = run.body.spacing() * 1e3;
     let mut warnings = Vec::new();
-    if softenings.exact < LEAST_SOFTENING {
-        let fitting = spacing * softenings.exact / LEAST_SOFTENING;
+    if softenings.fitting < 1.0 {
+        let fitting = spacing * softenings.fitting;
         warnings.push(format!(
             "cracks take the fracture energy, but start at less than the tensile strength of the material: particles of {} mm have \
              both, and those of this run are {} mm apart; set `particles.spacing` where that can be computed",

@@ -3,13 +3,13 @@
 use std::borrow::Cow;
 
 use super::{
-    bonded::{Bonded, Load},
+    bonded::{At, Bonded, Load, from_axis},
     cracks::{Front, Notches},
     debris::{ContactLaw, Debris},
     fields,
     flight::{Flight, Inertia, Pose},
     results, setup,
-    shape::{Contact, Moving, Rigid, contact},
+    shape::{Contact, Moving, Rigid, Shape, contact},
 };
 use crate::{
     Error, Scenario,
@@ -45,6 +45,8 @@ const PARTED_AFTER: f64 = 2.0;
 pub(crate) struct Impact<'a, B, const D: usize> {
     pub(super) scenario: &'a Scenario,
     pub(super) body: B,
+    /// Particles next to the axis on both faces across it.
+    pub(super) faces: [At; 2],
     pub(super) rigid: Rigid,
     pub(super) inertia: Inertia,
     pub(super) state: State,
@@ -133,6 +135,33 @@ impl<B: Bonded<D>, const D: usize> Impact<'_, B, D> {
         }
     }
 
+    /// Whether nothing stands in the way of a projectile that it would meet.
+    fn has_free_way(&self, shape: &Shape) -> bool {
+        let flight = &self.state.flight;
+        let speed = flight.velocity[0].hypot(flight.velocity[1]);
+        let [across, along] = flight.velocity.map(|part| part / speed);
+        let pose = self.pose();
+        let corners = [-shape.radius, shape.radius].map(|x| [[x, 0.0], [x, -shape.length]]);
+        let (mut tail, mut sides) = (f64::INFINITY, [f64::INFINITY, f64::NEG_INFINITY]);
+        for corner in corners.as_flattened() {
+            let [x, z] = pose.place(*corner);
+            let side = along * x - across * z;
+            tail = tail.min(across * x + along * z);
+            sides = [sides[0].min(side), sides[1].max(side)];
+        }
+        self.body.particles().all(|(row, place)| {
+            let (at, velocity) = (
+                self.body.position(row, place),
+                self.body.velocity(row, place),
+            );
+            let (x, z) = (from_axis(at), at[D - 1]);
+            let side = along * x - across * z;
+            let is_ahead = side > sides[0] && side < sides[1] && across * x + along * z > tail;
+            let its_speed = across * velocity[0] + along * velocity[D - 1];
+            !is_ahead || its_speed >= speed
+        })
+    }
+
     /// Largest stretch of a bond and largest tension of a particle, now or before.
     fn survey(&mut self) {
         let (stretch, tension) = self.body.extremes();
@@ -187,8 +216,13 @@ impl<'a, B: Bonded<D>, const D: usize> Solver<'a> for Impact<'a, B, D> {
         let of_contact =
             (frequency * frequency + 2.0 * body.contact_stiffness() / body.inner_mass()).sqrt();
         let time_step = courant * 2.0 / of_contact;
+        let on_axis: Vec<At> = (0..body.row_count())
+            .filter_map(|row| body.nearest_to_axis(row))
+            .collect();
+        let faces = [on_axis.first(), on_axis.last()].map(|face| *face.unwrap_or(&(0, 0)));
         let mut impact = Self {
             scenario,
+            faces,
             time_step,
             first_step: time_step,
             inertia,
@@ -270,14 +304,22 @@ impl<'a, B: Bonded<D>, const D: usize> Solver<'a> for Impact<'a, B, D> {
         }
     }
 
-    fn probe(&mut self, _: &RunMonitor) -> Probe {
-        let place = self.body.axis_place(0);
-        let [start, now] =
-            [self.body.reference(0, place), self.body.position(0, place)].map(|at| at[D - 1]);
+    fn probe(&mut self, monitor: &RunMonitor) -> Probe {
+        let (row, place) = self.faces[0];
+        let [start, now] = [
+            self.body.reference(row, place),
+            self.body.position(row, place),
+        ]
+        .map(|at| at[D - 1]);
         let touches = !self.contact.loads.is_empty();
         Probe {
             depth: match self.rigid {
                 Rigid::Wall => 0.0,
+                // A splinter that flies ahead is no floor.
+                Rigid::Projectile(shape) if self.body.is_loose(row, place) => {
+                    let tip = self.pose().deepest(&shape);
+                    (now - start).min(tip.max(monitor.largest_depth))
+                }
                 Rigid::Projectile(_) => now - start,
             },
             contact_force: self.contact_force(),
@@ -356,10 +398,17 @@ impl<'a, B: Bonded<D>, const D: usize> Solver<'a> for Impact<'a, B, D> {
         if !parted || !self.state.step.is_multiple_of(INTERVAL) {
             return Ok(None);
         }
-        // A free target may still be slower than a projectile that goes on: then they meet again.
+        // A free target may still be slower than a projectile that goes on: then they meet again, unless it has come through.
         let target = self.body.momentum() / self.body.mass();
-        let apart = self.rigid == Rigid::Wall || self.state.flight.velocity[1] < target;
-        Ok(apart.then_some(Termination::Parted))
+        let Rigid::Projectile(shape) = self.rigid else {
+            return Ok(Some(Termination::Parted));
+        };
+        if self.state.flight.velocity[1] < target {
+            return Ok(Some(Termination::Parted));
+        }
+        let is_through = self.pose().deepest(&shape) > extent.start + extent.length;
+        let has_left = is_through && self.has_free_way(&shape);
+        Ok(has_left.then_some(Termination::LeftTarget))
     }
 
     fn sample(&self, monitor: &RunMonitor) -> Sample {

@@ -4,7 +4,7 @@ use super::{
     body::{Body, Rows},
     cubic::{Cubic, LAYER},
     flight::{Flight, Inertia},
-    fracture::{self, BondKind, LEAST_SOFTENING, Softening, Toughness},
+    fracture::{self, BondKind, Softening, Softenings, Toughness},
     lattice::{Lattice, ROW, Solid, poissons_ratio_refusal},
     packing::{Moved, Packing},
     shape::{Rigid, Shape},
@@ -107,6 +107,9 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
         );
         return Some(Refusal::new(reason).with_remedy(remedy));
     }
+    if let Some(refusal) = without_effect(scenario) {
+        return Some(refusal);
+    }
     if scenario.obliquity != 0.0 && layer(scenario).is_none() {
         let reason = "a lattice on a rigid wall takes normal impact alone";
         let remedy = "remove `projectile.obliquity`, or give a plate as the target";
@@ -117,6 +120,30 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
     }
     let space = scenario.options.particles.space();
     poissons_ratio_refusal(space, material.poissons_ratio, id)
+}
+
+/// Why keys of bonds that break do not apply to a material without a fracture energy, if some are given.
+fn without_effect(scenario: &Scenario) -> Option<Refusal> {
+    let (material, id) = material(scenario);
+    if material.fracture.is_some() {
+        return None;
+    }
+    let options = &scenario.options.particles;
+    let irregular = packing(scenario) != Packing::Regular;
+    let given = [
+        ("softening", options.softening.is_some()),
+        ("failure_criterion", options.failure_criterion.is_some()),
+        ("restitution", options.restitution.is_some()),
+        ("friction", options.friction.is_some()),
+        ("amplitude", options.amplitude.is_some() && !irregular),
+        ("seed", options.seed.is_some() && !irregular),
+    ];
+    let (key, _) = given.into_iter().find(|(_, given)| *given)?;
+    let reason = format!(
+        "`particles.{key}` has no effect: no bond breaks, as the material `{id}` has no table `fracture`"
+    );
+    let remedy = "give the material a table `fracture` with `energy` and `tensile_strength`, or remove the key";
+    Some(Refusal::new(reason).with_remedy(remedy))
 }
 
 /// Size of the lattice of a case.
@@ -268,23 +295,17 @@ pub(super) fn solid(scenario: &Scenario) -> Solid {
     }
 }
 
-/// Softening of the bonds that a case asks for, and that with which the material has energy and strength.
-pub(super) struct Softenings {
-    pub(super) used: f64,
-    pub(super) exact: f64,
-}
-
 /// Softening of a plane case's bonds, if they break.
 pub(super) fn softenings(scenario: &Scenario, lattice: &Lattice) -> Option<Softenings> {
     let toughness = toughness(scenario)?;
     let options = &scenario.options.particles;
     let solid = (solid(scenario), options.space());
-    let exact = fracture::exact_softening(solid, lattice, toughness, bonds(scenario));
-    let auto = exact.clamp(LEAST_SOFTENING, fracture::LARGEST_SOFTENING);
-    Some(Softenings {
-        used: options.softening.unwrap_or(auto),
-        exact,
-    })
+    let bonds = bonds(scenario);
+    Some(Softenings::of(
+        fracture::exact_product(solid, lattice, toughness),
+        |softening| fracture::lattice_factor(bonds, softening),
+        options.softening,
+    ))
 }
 
 /// Whether the case has a plate as its target, and a rigid projectile.

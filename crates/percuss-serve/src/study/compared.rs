@@ -4,6 +4,7 @@ use percuss::{
     compare::{self, Comparison},
     model,
     outcome::BandQuantity,
+    statistics::evenly,
 };
 use percuss_report::{compare_chart, comparison_files};
 use serde_json::{Value, json};
@@ -54,10 +55,7 @@ fn speeds(from: f64, to: f64, count: usize) -> Result<Vec<f64>, Problem> {
             "give 2 to {SPEEDS} velocities from 0 to 10000 m/s"
         )));
     }
-    let part = |i: usize| i as f64 / (count - 1) as f64;
-    Ok((0..count)
-        .map(|i| from * (1.0 - part(i)) + to * part(i))
-        .collect())
+    Ok(evenly(from, to, count as u64 - 1).collect())
 }
 
 /// A quantity in words, with what was measured of it.

@@ -30,13 +30,14 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::{
-    Error, Scenario, axi,
+    Error, Scenario,
     model::{self, Control, Model},
     outcome::{BandQuantity, Outcome, RunResult},
     problem::RearFaceCondition,
     richardson::OnMesh,
     scenario::TargetBody,
     solver::frames::Frame,
+    validity::THROUGH_FIXED_FACE,
 };
 
 pub use cost::{BUDGET, seconds};
@@ -108,13 +109,11 @@ impl MeshResult {
     /// The numbers of a run on a mesh.
     pub fn new(cells_per_radius: u32, result: &RunResult) -> Self {
         let value = |quantity: BandQuantity| Some(quantity.in_unit(result.measurable(quantity)?));
-        let perforated = result.outcome == Outcome::Perforated;
         let numerics = result.numerics.as_ref();
         Self {
             cells_per_radius,
             outcome: result.outcome,
-            depth_of_penetration_mm: value(BandQuantity::DepthOfPenetration)
-                .filter(|_| !perforated),
+            depth_of_penetration_mm: value(BandQuantity::DepthOfPenetration),
             residual_velocity_m_s: value(BandQuantity::ResidualVelocity),
             projectile_final_length_mm: value(BandQuantity::ProjectileFinalLength),
             steps: numerics.map(|numerics| numerics.steps),
@@ -261,7 +260,7 @@ impl AxisymmetricAnswer {
         if is_held && finest.outcome == Outcome::Perforated {
             return Self {
                 meshes,
-                ..Self::without(reference, axi::THROUGH_FIXED_FACE)
+                ..Self::without(reference, THROUGH_FIXED_FACE)
             };
         }
         let quantity = main_number(scenario, finest.outcome);

@@ -91,8 +91,21 @@ impl Problem {
             }
             let of_values = observations.used.iter().map(|value| &value.template);
             let of_curves = observations.curves.iter().map(|set| &set.template);
+            let (mut unused, mut is_used) = (None, false);
             for template in of_values.chain(of_curves) {
                 parameter.check(template)?;
+                match template.unused_material(parameter.key()) {
+                    Some(id) => unused = Some(id),
+                    None => is_used = true,
+                }
+            }
+            if let Some(id) = unused.filter(|_| !is_used) {
+                let message = format!(
+                    "`{}` has no effect: no part of a case is of `{id}`",
+                    parameter.key()
+                );
+                let help = "name a material of the projectile or the target";
+                return Err(parameter.error(&message, help));
             }
         }
         let mut problem = Self {

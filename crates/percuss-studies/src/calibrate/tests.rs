@@ -262,6 +262,24 @@ fn a_record_is_taken_back_and_is_no_blind_test_of_its_source() {
     }
 }
 
+#[test]
+fn a_constant_of_a_metal_that_no_case_has_is_refused() {
+    let tests = synthetic(Kind::Taylor, "wilkins_guinan", "", &[0.0; 4]);
+    let mut observations = Observations::default();
+    let own = Fitted::read("materials.rod.strength.perfectly_plastic.flow_stress=50..2000 MPa");
+    observations
+        .add_tests(&tests, &library(), &own.unwrap())
+        .unwrap();
+    let other = Fitted::read("materials.4340.density=7..9 g/cm3").unwrap();
+    let model = model("wilkins_guinan").unwrap();
+    let refused = Problem::new(model, other, observations, Noise::Estimated);
+    let words = refused.err().unwrap().to_string();
+    assert!(
+        words.contains("`materials.4340.density` has no effect"),
+        "{words}"
+    );
+}
+
 /// A case that went through TOML is the case that it was.
 #[test]
 fn tests_become_the_same_scenarios_as_elsewhere() {

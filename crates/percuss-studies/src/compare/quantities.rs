@@ -2,7 +2,7 @@
 
 use crate::{
     outcome::{BandQuantity, Outcome},
-    regime::THIN,
+    regime::{THIN, is_thinner},
     scenario::{Scenario, TargetBody},
     summary::ResultRecord,
 };
@@ -15,7 +15,7 @@ pub(super) fn leading(scenario: &Scenario, results: &[ResultRecord]) -> Vec<Band
         BallisticLimit, DepthOfPenetration, ProjectileFinalLength, ResidualVelocity,
     };
     let thickness = scenario.target_thickness();
-    let thin = thickness.is_some_and(|thickness| thickness < THIN * scenario.projectile.diameter);
+    let thin = thickness.is_some_and(|thickness| is_thinner(thickness, THIN, scenario));
     let perforated = results
         .iter()
         .any(|result| result.outcome == Outcome::Perforated);

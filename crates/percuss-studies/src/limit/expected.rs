@@ -14,7 +14,7 @@ use crate::{
     regime::{ProjectileRegime, Regime, TargetKind},
     scenario::TargetBody,
     validate::{self, Standing},
-    validity::NoseKind,
+    validity::{Measure, NoseKind, Range},
 };
 
 /// Fewest published limits that an expected error rests on.
@@ -187,7 +187,18 @@ pub(super) fn expected_error(
     if !predicts.contains(&BandQuantity::BallisticLimit) {
         return None;
     }
-    let plate = Plate::of(&scenario.at_impact_velocity(limit))?;
+    let at_limit = scenario.at_impact_velocity(limit);
+    // The published plates lie within the range of thickness: their errors say nothing of one outside.
+    let of_thickness = |range: &&Range| range.measure == Measure::ThicknessToDiameter;
+    let mut ranges = model
+        .validity_for(&at_limit)
+        .ranges
+        .iter()
+        .filter(of_thickness);
+    if ranges.any(|range| range.diagnostic(&at_limit).is_some()) {
+        return None;
+    }
+    let plate = Plate::of(&at_limit)?;
     let is_own = |source: &String| {
         let mut cited = scenario.experiments.iter().flat_map(|e| &e.sources);
         cited.any(|cited| cited == source)

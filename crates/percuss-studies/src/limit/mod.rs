@@ -210,7 +210,7 @@ pub struct Limits {
     /// The axisymmetric limit, where it contradicts a recommended one [m/s]; not in JSON.
     #[serde(skip)]
     pub contradiction: Option<f64>,
-    /// Range of the limits that models predict; null where none does.
+    /// Range of the limits that models predict, the axisymmetric one included; null where none does.
     pub range: Option<LimitRange>,
     /// Limit by the axisymmetric model in the limit of fine meshes; null where it was not asked for.
     pub axisymmetric: Option<AxisymmetricLimit>,
@@ -281,7 +281,7 @@ fn searched(
         let expected = limit.map(|limit| expected::expected_error(*model, scenario, limit));
         entry.expected_error = expected.flatten();
     }
-    let range = LimitRange::of(&results);
+    let of_models = LimitRange::of(&results, None);
     let axisymmetric = search
         .axisymmetric
         .map(|request| {
@@ -290,7 +290,7 @@ fn searched(
             let mut rest = Observer {
                 progress: Some(&mut report),
             };
-            axisymmetric::on_meshes(scenario, &request, search, range, &mut rest)
+            axisymmetric::on_meshes(scenario, &request, search, of_models, &mut rest)
         })
         .transpose()?;
     let (recommended, note, contradiction) =
@@ -303,7 +303,7 @@ fn searched(
         recommended,
         note,
         contradiction,
-        range,
+        range: LimitRange::of(&results, axisymmetric.as_ref()),
         axisymmetric,
         experiments: ExperimentRecord::all(scenario),
         results,
@@ -311,8 +311,11 @@ fn searched(
 }
 
 impl LimitRange {
-    fn of(results: &[ModelLimit]) -> Option<Self> {
-        let found = || results.iter().filter_map(|entry| entry.ballistic_limit_m_s);
+    fn of(results: &[ModelLimit], axisymmetric: Option<&AxisymmetricLimit>) -> Option<Self> {
+        let found = || {
+            let of_models = results.iter().filter_map(|entry| entry.ballistic_limit_m_s);
+            of_models.chain(axisymmetric.and_then(|limit| limit.ballistic_limit_m_s))
+        };
         Some(Self {
             lowest_m_s: found().reduce(f64::min)?,
             highest_m_s: found().reduce(f64::max)?,

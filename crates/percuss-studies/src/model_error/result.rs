@@ -1,15 +1,10 @@
 //! Model error to expect of a result. A run consults no benchmark: whoever shows a result adds it.
 
 use super::{ModelErrorEstimate, estimate_error};
-use crate::{
-    Scenario,
-    model::model,
-    outcome::{Outcome, RunResult},
-    regime::Regime,
-};
+use crate::{Scenario, model::model, outcome::RunResult, regime::Regime};
 
-/// Error to expect of a result's depth in the regime of its case; `None` where there is no estimate of it. The benchmark has no law of
-/// the caller's own, and a crater that reached the rear face has the depth of the plate.
+/// Error to expect of a result's depth in the regime of its case; `None` where there is no estimate of it, or no depth. The benchmark has no law
+/// of the caller's own.
 pub(crate) fn expected_error(
     scenario: &Scenario,
     regime: &Regime,
@@ -17,8 +12,7 @@ pub(crate) fn expected_error(
 ) -> Option<ModelErrorEstimate> {
     // A depth of zero has no relative error.
     let has_depth = result.depth_of_penetration.is_some_and(|depth| depth > 0.0);
-    let is_depth_of_crater = has_depth && result.outcome != Outcome::Perforated;
-    if !is_depth_of_crater || scenario.resistance.is_some() {
+    if !has_depth || scenario.resistance.is_some() {
         return None;
     }
     estimate_error(model(result.model).ok()?, scenario, regime)
@@ -27,7 +21,10 @@ pub(crate) fn expected_error(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{case, outcome::Termination};
+    use crate::{
+        case,
+        outcome::{Outcome, Termination},
+    };
 
     #[test]
     fn a_depth_of_zero_has_no_relative_error() {

@@ -88,7 +88,7 @@ impl Role {
 pub enum InStatistics {
     /// Every run that gives one.
     Every,
-    /// Runs that do not perforate: a perforated target has no depth of penetration.
+    /// Runs that do not perforate: a perforated target has no depth.
     NotPerforated,
     /// Every run that gives one; 0 where the target stops the projectile.
     ZeroWhereStopped,
@@ -131,7 +131,6 @@ impl ResultNumber {
         let outcome = record.outcome;
         let value = self.of(record)?;
         let value = match self.in_statistics {
-            InStatistics::NotPerforated if outcome == Outcome::Perforated => return None,
             InStatistics::ZeroWhereStopped if outcome.perforated() == Some(false) => 0.0,
             _ => value,
         };

@@ -89,7 +89,7 @@ result_record! {
         /// Target resistance model (`chain.target_resistance`), where there is a choice of it.
         target_resistance: Option<&'static str>;
         /// Reason why that is not the usual one, where the case names none, with the depth by the usual one if it differs by more than a tenth;
-        /// null otherwise.
+        /// null otherwise, and where models are compared.
         target_resistance_choice: Option<String>;
         /// Outcome of the run.
         outcome: Outcome;
@@ -104,18 +104,18 @@ result_record! {
         impact_velocity_m_s: f64
             = number("impact velocity", Unit::M_S, Input), |case, _| case.impact_velocity;
 
-        /// Depth of the crater floor when the projectile's momentum is used up.
+        /// Depth of the crater floor when the projectile's momentum is used up; none of a perforated target.
         depth_of_penetration_mm: Option<f64>
             = number("depth of penetration", Unit::MM, Main).in_statistics(NotPerforated), |_, run| run?.depth_of_penetration;
 
         /// Estimated error of that depth against the axisymmetric reference, where similar cases are in the benchmark.
         expected_error: Option<ModelErrorEstimate>;
 
-        /// Largest depth at any time, elastic deflection included.
+        /// Largest depth at any time, elastic deflection included; none of a perforated target.
         largest_depth_mm: Option<f64>
             = number("largest depth", Unit::MM, Result).in_statistics(NotPerforated), |_, run| run?.largest_depth;
 
-        /// Depth left once the load is gone.
+        /// Depth left once the load is gone; none of a perforated target.
         permanent_depth_mm: Option<f64>
             = number("permanent depth", Unit::MM, Result).in_statistics(NotPerforated), |_, run| run?.permanent_depth;
 
@@ -135,7 +135,7 @@ result_record! {
         ballistic_limit_m_s: Option<f64>
             = number("ballistic limit", Unit::M_S, Main), |_, run| run?.ballistic_limit;
 
-        /// Range that the model gives its main number.
+        /// Range that the model gives its main number; `chain` gives it in `percuss run` alone.
         band: Option<Band>;
 
         /// Unloaded length of what is left of the projectile.

@@ -103,7 +103,7 @@ impl SteinbergGuinan {
         }
     }
 
-    /// Flow stress at room temperature without pressure [Pa].
+    /// Flow stress without pressure at 300 K, the room temperature of the law [Pa].
     fn work_hardened(&self, plastic_strain: f64) -> f64 {
         let state = FlowState {
             plastic_strain,

@@ -6,7 +6,7 @@ use crate::{
     fdm::grid::{BoundaryCondition, Grid, Slab},
     ledger::{EnergyLedger, MomentumLedger},
     material::{Material, StateEquation},
-    options::ArtificialViscosity,
+    options::{ArtificialViscosity, ChainOptions},
 };
 
 /// What a layer is made of.
@@ -59,12 +59,8 @@ impl Medium {
         }
     }
 
-    pub(super) fn law(
-        &self,
-        area: f64,
-        viscosity: ArtificialViscosity,
-        rate_effects: bool,
-    ) -> PlanarLaw {
+    /// Its law with the usual heating, and strength that depends on the rate.
+    pub(super) fn law(&self, area: f64, viscosity: ArtificialViscosity) -> PlanarLaw {
         let material = self.solid.as_ref().map(|solid| &solid.material);
         PlanarLaw {
             state: self.state,
@@ -73,11 +69,12 @@ impl Medium {
             start_energy: self.energy,
             shear_modulus: self.solid.as_ref().map_or(0.0, |solid| solid.shear_modulus),
             strength: material.map(|material| material.strength.law().prepare(material, 1.0)),
+            heat_fraction: ChainOptions::default().heat_fraction(),
             specific_heat: material
                 .and_then(|material| material.specific_heat)
                 .map(|c| c.si()),
             start_temperature: material.map_or(293.0, |material| material.room_temperature.si()),
-            rate_effects,
+            rate_effects: true,
             viscosity,
             spall_strength: self.spall_strength,
         }
@@ -143,7 +140,7 @@ impl PlanarGrid {
         let mut start = 0.0;
         let slabs = layers.iter().map(|layer| {
             let slab = Slab {
-                law: layer.medium.law(1.0, viscosity, true),
+                law: layer.medium.law(1.0, viscosity),
                 line_density: layer.medium.density,
                 line_friction: 0.0,
                 start,

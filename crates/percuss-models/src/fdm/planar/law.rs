@@ -22,6 +22,8 @@ pub(super) struct PlanarLaw {
     pub(super) shear_modulus: f64,
     /// `None` for a fluid.
     pub(super) strength: Option<Box<dyn PreparedStrength>>,
+    /// Part of the plastic work that heats the body.
+    pub(super) heat_fraction: f64,
     pub(super) specific_heat: Option<f64>,
     pub(super) start_temperature: f64,
     pub(super) rate_effects: bool,
@@ -213,7 +215,7 @@ impl Law for PlanarLaw {
         cell.viscous_work += cell.mass * viscous * work;
         cell.temperature *= (self.state.heating_by_compression(mean_volume) * work).exp();
         if let Some(heat) = self.specific_heat {
-            cell.temperature += (plastic + viscous * work) / heat;
+            cell.temperature += (self.heat_fraction * plastic + viscous * work) / heat;
         }
         if sheared.increment > 0.0 && cell.time_step > 0.0 {
             cell.strain_rate = cell.strain_rate.max(sheared.increment / cell.time_step);

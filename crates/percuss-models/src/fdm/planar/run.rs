@@ -105,16 +105,18 @@ fn with_equation_of_state() -> Vec<String> {
 }
 
 fn law(material: &Material, scenario: &Scenario) -> Option<PlanarLaw> {
-    let options = &scenario.options.fdm;
+    let (options, chain) = (&scenario.options.fdm, &scenario.options.chain);
     let mut medium = Medium::of(material)?;
     if let Some(strength) = options.spall_strength {
         medium.spall_strength = Some(strength.si());
     }
-    Some(medium.law(
-        scenario.projectile.area(),
-        options.artificial_viscosity.unwrap_or(DEFAULT_VISCOSITY),
-        scenario.options.chain.rate_effects(),
-    ))
+    let viscosity = options.artificial_viscosity.unwrap_or(DEFAULT_VISCOSITY);
+    let heats = chain.adiabatic_heating();
+    Some(PlanarLaw {
+        heat_fraction: if heats { chain.heat_fraction() } else { 0.0 },
+        rate_effects: chain.rate_effects(),
+        ..medium.law(scenario.projectile.area(), viscosity)
+    })
 }
 
 /// Cells along the projectile and through the target.

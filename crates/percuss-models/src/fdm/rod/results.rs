@@ -116,7 +116,7 @@ fn warnings(rod: &Rod<'_>, result: &RunResult) -> Vec<String> {
     let depth = result.depth_of_penetration.unwrap_or(0.0);
     if shear > 0.0 {
         warnings.push(format!(
-            "the depth depends on the target resistance model (constraint factor and border shear C = {}): `fdm.border_shear = 0.0` gives \
+            "the result depends on the target resistance model (constraint factor and border shear C = {}): `fdm.border_shear = 0.0` gives \
              the other end of the range",
             significant(shear, 4)
         ));

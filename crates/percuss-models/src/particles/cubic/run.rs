@@ -10,10 +10,9 @@ use super::{
         energy::BodySums,
         fields,
         flight::Inertia,
-        fracture::Softening,
+        fracture::{Softening, Softenings},
         lattice::eigenvalues,
         run::Impact,
-        setup::Softenings,
         shape::{Rigid, Shape},
     },
     body::CubicBody,
@@ -218,7 +217,7 @@ impl Bonded<3> for CubicBody {
             .reduce(|| (0.0, 0.0), |a, b| (a.0.max(b.0), a.1.max(b.1)))
     }
 
-    fn axis_place(&self, layer: usize) -> usize {
+    fn middle_place(&self, layer: usize) -> usize {
         let odd = 0.5 * (layer % 2) as f64;
         let [column, row] = [0, 1].map(|axis| {
             let number = -self.origin[axis] / self.lattice.side() - odd;
@@ -227,8 +226,7 @@ impl Bonded<3> for CubicBody {
         (row + 1) * self.grid.stride() + column + 1
     }
 
-    fn on_axis(&self, layer: usize, part: usize) -> ElementState {
-        let place = self.axis_place(layer);
+    fn on_axis(&self, (layer, place): At, part: usize) -> ElementState {
         let [start, now] = [self.rest_place(layer, place)[2], self.now(layer, place)[2]];
         ElementState {
             part,
@@ -237,7 +235,7 @@ impl Bonded<3> for CubicBody {
             displacement: now - start,
             length: 0.5 * self.lattice.side(),
             stress: -self.stress(layer, place)[2],
-            strain: -fields::axial_strain(self, layer),
+            strain: -fields::axial_strain(self, (layer, place)),
             plastic_strain: 0.0,
             diameter: self.width(),
             temperature: f64::NAN,

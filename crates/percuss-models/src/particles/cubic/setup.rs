@@ -2,9 +2,9 @@
 
 use super::{
     super::{
-        fracture::{LARGEST_SOFTENING, LEAST_SOFTENING},
+        fracture::Softenings,
         packing::{Moved, Packing},
-        setup::{self, Softenings, extent, packing, solid, toughness},
+        setup::{self, extent, packing, solid, toughness},
         shape::Rigid,
     },
     body::CubicBody,
@@ -29,12 +29,11 @@ pub(super) fn softenings(scenario: &Scenario, lattice: &Cubic) -> Option<Softeni
     let toughness = toughness(scenario)?;
     let modulus = solid(scenario).youngs_modulus;
     let irregular = moved(scenario).is_some();
-    let exact = bonds::exact_softening(lattice, modulus, toughness, irregular);
-    let auto = exact.clamp(LEAST_SOFTENING, LARGEST_SOFTENING);
-    Some(Softenings {
-        used: scenario.options.particles.softening.unwrap_or(auto),
-        exact,
-    })
+    Some(Softenings::of(
+        bonds::exact_product(lattice, modulus, toughness),
+        |softening| bonds::lattice_factor(irregular, softening),
+        scenario.options.particles.softening,
+    ))
 }
 
 /// Layers, rows and columns of a case.

@@ -17,17 +17,15 @@ pub(in super::super) fn lattice_factor(irregular: bool, softening: f64) -> f64 {
     fracture::interpolated(if irregular { IRREGULAR } else { REGULAR }, softening)
 }
 
-/// Softening with which a lattice has both the fracture energy and the tensile strength of a solid, not less than 1.
-pub(in super::super) fn exact_softening(
+/// Softening times its lattice factor with which a lattice has both the fracture energy and the tensile strength of a solid.
+pub(in super::super) fn exact_product(
     lattice: &Cubic,
     youngs_modulus: f64,
     toughness: Toughness,
-    irregular: bool,
 ) -> f64 {
     // A bond along the tension is strained by σ/E.
     let strain = toughness.strength / youngs_modulus;
-    let by_factor = toughness.energy / (CUT * lattice.normal * strain * strain);
-    fracture::solved(by_factor, |softening| lattice_factor(irregular, softening))
+    toughness.energy / (CUT * lattice.normal * strain * strain)
 }
 
 /// Softening by a ratio, each crack of which takes the fracture energy [J/m2].

@@ -15,10 +15,9 @@ use crate::{
         energy::BodySums,
         fields,
         flight::Inertia,
-        fracture::Softening,
+        fracture::{Softening, Softenings},
         lattice::ROW,
         run::Impact,
-        setup::Softenings,
         shape::{Rigid, Shape},
     },
     solver::{Control, Particle, archive::Archive},
@@ -208,12 +207,11 @@ impl Bonded<2> for StressBody {
         flow
     }
 
-    fn axis_place(&self, row: usize) -> usize {
-        self.frame.axis_place(row)
+    fn middle_place(&self, row: usize) -> usize {
+        self.frame.middle_place(row)
     }
 
-    fn on_axis(&self, row: usize, part: usize) -> ElementState {
-        let place = self.axis_place(row);
+    fn on_axis(&self, (row, place): At, part: usize) -> ElementState {
         let point = self.rows[row].point(place);
         let [start, now] = [self.reference(row, place)[1], self.position(row, place)[1]];
         ElementState {
@@ -223,7 +221,7 @@ impl Bonded<2> for StressBody {
             displacement: now - start,
             length: ROW * self.spacing(),
             stress: point.pressure + point.viscous_pressure - point.deviator[1],
-            strain: -fields::axial_strain(self, row),
+            strain: -fields::axial_strain(self, (row, place)),
             plastic_strain: point.plastic_strain,
             diameter: self.frame.width(),
             temperature: point.temperature,

@@ -233,7 +233,7 @@ fn drift(body: &mut StressBody, step: f64) {
 
 /// Depth before the impact at which the stress on the axis of a bar falls below a level [m].
 fn front(body: &StressBody, level: f64) -> f64 {
-    let at = |row: usize| body.on_axis(row, 0);
+    let at = |row: usize| body.on_axis((row, body.middle_place(row)), 0);
     let last = (0..body.row_count())
         .rev()
         .find(|&row| at(row).stress > level)
@@ -279,7 +279,7 @@ fn plate_impact_has_the_exact_waves() {
         let mean = |from: f64, to: f64| {
             let inside = |place: f64| place > from && place < to;
             let all: Vec<f64> = (0..rows)
-                .map(|row| body.on_axis(row, 0))
+                .map(|row| body.on_axis((row, body.middle_place(row)), 0))
                 .filter(|state| inside(state.initial_position))
                 .map(|state| state.stress)
                 .collect();

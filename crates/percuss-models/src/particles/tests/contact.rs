@@ -300,6 +300,9 @@ fn what_the_model_does_not_compute_is_refused_with_a_remedy() {
             0.3,
             "no bond breaks with",
         ),
+        (plate, "softening = 5.0", 0.2, "no table `fracture`"),
+        (plate, "seed = 7", 0.2, "`particles.seed` has no effect"),
+        (plate, "friction = 0.9", 0.2, "or remove the key"),
         (plate, "spacing = '0.01 um'", 0.2, "of memory"),
     ] {
         if options.contains("um") {
@@ -371,4 +374,49 @@ fn memory_is_estimated_before_it_is_taken() {
             .largest_frequency()
             > 0.0
     );
+}
+
+/// Glass that breaks at 8 J/m2 and 41 MPa.
+const GLASS: &str = "materials.glass = { name = 'Glass', density = '2500 kg/m3', youngs_modulus = '72 GPa', poissons_ratio = 0.23, \
+     strength.elastic = {}, fracture = { energy = '8 J/m2', tensile_strength = '41 MPa' } }";
+
+/// A ball-nosed strip goes through thin glass: the run ends when nothing is left in its way.
+#[test]
+fn a_projectile_that_has_come_through_ends_its_run() {
+    let text = format!(
+        "projectile = {{ material = 'own', length = '20 mm', diameter = '4 mm', nose = 'hemisphere', impact_velocity = '100 m/s' }}\n\
+         target = {{ material = 'glass', thickness = '2 mm', back_face = 'free' }}\n\
+         particles = {{ spacing = '0.25 mm', width = '12 mm', end_time = '2 ms' }}\n{GLASS}\n{}",
+        own_material(0.2)
+    );
+    let scenario = case::load_str("glass", &text).unwrap();
+    let result = solver::run(&Particles, &scenario, &mut Control::default()).unwrap();
+    assert_eq!(
+        (result.outcome, result.termination),
+        (Outcome::Perforated, Termination::LeftTarget)
+    );
+    assert!(result.end_time.unwrap() < 1e-3 && result.residual_velocity.unwrap() > 50.0);
+    assert_eq!(result.largest_depth, None);
+}
+
+/// Rows of a disc may begin and end without a particle: depth and profile are those of the particles that are there.
+#[test]
+fn a_disc_is_pressed_in_at_every_spacing() {
+    for spacing in [0.5, 0.45, 0.4, 0.3] {
+        let scenario = scenario(
+            "length = '20 mm', diameter = '10 mm', impact_velocity = '1 m/s'",
+            "material = 'own', thickness = '5 mm', back_face = 'free'",
+            &format!("outline = 'disc', spacing = '{spacing} mm', end_time = '3 us'"),
+            0.2,
+        );
+        let result = solver::run(&Particles, &scenario, &mut Control::recording()).unwrap();
+        let depth = result.largest_depth.unwrap();
+        assert!((1e-6..4e-6).contains(&depth), "{spacing} mm: {depth}");
+        let history = result.history.unwrap();
+        let last = history.profiles.last().unwrap();
+        let is_whole = |state: &crate::history::ElementState| {
+            state.stress.is_finite() && state.strain.abs() < 0.01
+        };
+        assert!(last.elements.iter().all(is_whole), "{spacing} mm: {last:?}");
+    }
 }

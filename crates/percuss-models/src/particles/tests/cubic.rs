@@ -58,7 +58,7 @@ fn stress_is_that_of_the_solid() {
         let mut body = block(ratio, [6, 6, 6], None);
         let (first, second) = solid(ratio).constants();
         let layer = body.row_count() / 2;
-        let place = body.axis_place(layer);
+        let place = body.middle_place(layer);
         let scale = 1e-7;
         for strain in [
             [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
@@ -322,7 +322,7 @@ fn bending<B: Bonded<D>, const D: usize>(
     }
     let mean = body.momentum() / body.mass();
     let row = body.row_count() / 2;
-    let place = body.axis_place(row);
+    let place = body.middle_place(row);
     let (interval, steps) = (2e-6, 100);
     (0..12)
         .map(|number| {

@@ -7,7 +7,7 @@ use crate::{
     options::Space,
     particles::{
         body::{Body, Rows},
-        fracture::{BondKind, Softening, lattice_factor},
+        fracture::{BondKind, Softening, Softenings, lattice_factor},
         lattice::ROW,
         packing::{Moved, Packing},
     },
@@ -455,6 +455,25 @@ fn cracks_through_irregular_packings_take_the_energy_of_the_table() {
             assert!(
                 (mean / expected - 1.0).abs() < 0.05,
                 "{criterion:?} {end}: {mean} {expected}"
+            );
+        }
+    }
+}
+
+/// The spacing that is advised has the least softening, with the energy and the strength of the solid.
+#[test]
+fn the_fitting_spacing_has_the_least_softening() {
+    for bonds in [Elongation, PrincipalStress].map(|criterion| bonds(true, criterion)) {
+        let factor = |softening: f64| lattice_factor(bonds, softening);
+        for product in [0.5, 2.0, 5.0, 7.0] {
+            let coarse = Softenings::of(product, factor, None);
+            // The product is as one over the spacing.
+            let fitting = Softenings::of(product / coarse.fitting, factor, None);
+            assert!((fitting.fitting - 1.0).abs() < 1e-12, "{bonds:?} {product}");
+            assert!(
+                (fitting.used - 3.0).abs() < 1e-3,
+                "{bonds:?} {}",
+                fitting.used
             );
         }
     }
