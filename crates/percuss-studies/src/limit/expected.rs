@@ -11,7 +11,7 @@ use crate::{
     model::{Model, fast_models},
     model_error::ModelErrorEstimate,
     outcome::BandQuantity,
-    regime::{ProjectileRegime, Regime, TargetKind},
+    regime::{ProjectileRegime, Regime, TargetKind, at_least},
     scenario::TargetBody,
     validate::{self, Standing},
     validity::{Measure, NoseKind, Range},
@@ -188,14 +188,15 @@ pub(super) fn expected_error(
         return None;
     }
     let at_limit = scenario.at_impact_velocity(limit);
-    // The published plates lie within the range of thickness: their errors say nothing of one outside.
-    let of_thickness = |range: &&Range| range.measure == Measure::ThicknessToDiameter;
-    let mut ranges = model
-        .validity_for(&at_limit)
-        .ranges
-        .iter()
-        .filter(of_thickness);
-    if ranges.any(|range| range.diagnostic(&at_limit).is_some()) {
+    // No published plate is thinner than the range of its model: their errors say nothing of one that is.
+    let thickness = Measure::ThicknessToDiameter;
+    let is_thinner = |range: &Range| {
+        let ratio = thickness
+            .of(&at_limit)
+            .filter(|_| range.measure == thickness);
+        ratio.is_some_and(|ratio| !at_least(ratio, range.min))
+    };
+    if model.validity_for(&at_limit).ranges.iter().any(is_thinner) {
         return None;
     }
     let plate = Plate::of(&at_limit)?;
