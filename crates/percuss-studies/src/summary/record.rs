@@ -104,18 +104,18 @@ result_record! {
         impact_velocity_m_s: f64
             = number("impact velocity", Unit::M_S, Input), |case, _| case.impact_velocity;
 
-        /// Depth of the crater floor when the projectile's momentum is used up; none of a perforated target.
+        /// Depth of the crater floor in a target that is not perforated, when the projectile's momentum is used up.
         depth_of_penetration_mm: Option<f64>
             = number("depth of penetration", Unit::MM, Main).in_statistics(NotPerforated), |_, run| run?.depth_of_penetration;
 
         /// Estimated error of that depth against the axisymmetric reference, where similar cases are in the benchmark.
         expected_error: Option<ModelErrorEstimate>;
 
-        /// Largest depth at any time, elastic deflection included; none of a perforated target.
+        /// Largest depth at any time in a target that is not perforated, elastic deflection included.
         largest_depth_mm: Option<f64>
             = number("largest depth", Unit::MM, Result).in_statistics(NotPerforated), |_, run| run?.largest_depth;
 
-        /// Depth left once the load is gone; none of a perforated target.
+        /// Depth in a target that is not perforated, once the load is gone.
         permanent_depth_mm: Option<f64>
             = number("permanent depth", Unit::MM, Result).in_statistics(NotPerforated), |_, run| run?.permanent_depth;
 
