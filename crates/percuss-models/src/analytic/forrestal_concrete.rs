@@ -18,8 +18,9 @@ use crate::{
 #[derive(Debug, Clone, Copy)]
 pub struct ForrestalConcrete;
 
-/// Diameter of the largest projectiles that the factor S was found on [m].
-const LARGEST_DIAMETER: f64 = 0.031;
+/// Diameter of the projectile of the published test that the factor S is checked on [m], and how much larger one may be without a warning.
+const CHECKED_DIAMETER: f64 = 0.0269;
+const LARGER: f64 = 1.2;
 
 /// A rigid projectile and the concrete that resists it.
 #[derive(Debug, Clone, Copy)]
@@ -163,10 +164,10 @@ impl Model for ForrestalConcrete {
             detail("depth to diameter", "", stop.depth / phases.diameter),
         ];
         let has_own_factor = scenario.options.forrestal_concrete.s.is_some();
-        if !has_own_factor && phases.diameter > LARGEST_DIAMETER {
+        if !has_own_factor && phases.diameter > LARGER * CHECKED_DIAMETER {
             result.warnings.push(format!(
-                "the factor S was found on projectiles of 13 to 31 mm, and this one has {} mm: larger ones can go deeper; give \
-                 `forrestal_concrete.s` from tests of this size",
+                "the factor S is checked on a projectile of {} mm, and this one has {} mm: give `forrestal_concrete.s` from tests of its size",
+                significant(CHECKED_DIAMETER * 1e3, 3),
                 significant(phases.diameter * 1e3, 3)
             ));
         }

@@ -60,7 +60,7 @@ const RANGES: &[Range] = &[
 ];
 
 /// Those of noses other than flat. Below, limits do not fall with the thickness: a quarter of a plate had the limit of the whole, and a plate of
-/// 0.2 diameters twice that of `axi`. Far above a limit, residual velocities of plates of 0.25 diameters are within 9 % of `axi`.
+/// 0.2 diameters twice that of `axi`. Far above a limit, residual velocities of plates of 0.25 diameters are within 14 % of `axi`.
 const RANGES_UNDER_A_NOSE: &[Range] = &[
     Range::RIGID_AGAINST_PLATE,
     Range {
