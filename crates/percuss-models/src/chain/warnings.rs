@@ -101,7 +101,7 @@ pub(super) fn warnings_of_cavity(
     // A case that names its target resistance model keeps it at any thickness.
     let thickness = scenario
         .target_thickness()
-        .filter(|_| scenario.options.chain.target_resistance.is_none());
+        .filter(|_| !scenario.given.target_resistance);
     if let Some(thickness) = thickness.filter(|&h| is_thinner(h, NEAR_COLUMN, scenario)) {
         warnings.push(format!(
             "the plate is {} projectile diameters thick: below {THIN} the target resistance model is `column`, whose answer differs; compare \
