@@ -168,6 +168,7 @@ impl UnitSystem {
         let of_area = self.length * self.length;
         let (names, si) = match of.si_symbol {
             "m" => (length, self.length),
+            "m2" => (area(length[0]), of_area),
             "kg" => (mass, self.mass),
             "s" => (time, self.time),
             "m/s" => (velocity, self.velocity()),
@@ -222,6 +223,16 @@ impl UnitSystem {
     }
 }
 
+/// Symbol and end of names of the square of a unit of length.
+fn area(length: &str) -> [&'static str; 2] {
+    match length {
+        "m" => ["m2", "_m2"],
+        "cm" => ["cm2", "_cm2"],
+        "in" => ["in2", "_in2"],
+        _ => ["mm2", "_mm2"],
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -249,6 +260,23 @@ mod tests {
             assert_eq!(inches.column(name), None, "{name}");
         }
         assert_eq!(of("SI").column("residual_velocity_m_s"), None);
+        for (system, name, square) in [
+            ("SI", "crack_area_m2", 1e6),
+            ("cm-g-us", "crack_area_cm2", 1e2),
+            ("in-lbf-s", "crack_area_in2", 25.4 * 25.4),
+        ] {
+            let (found, factor) = of(system).column("crack_area_mm2").unwrap();
+            assert_eq!(found, name);
+            near(factor * square, 1.0);
+        }
+        assert_eq!(of("mm-t-s").column("crack_area_mm2"), None);
+        // Every unit of length of a system has its square.
+        for system in UnitSystem::ALL {
+            let [length, square] = ["x_mm", "x_mm2"].map(|name| system.column(name));
+            let suffix =
+                |column: Option<(String, f64)>, own: &str| column.map_or(own.to_owned(), |c| c.0);
+            assert_eq!(suffix(square, "x_mm2"), suffix(length, "x_mm") + "2");
+        }
     }
 
     #[test]
