@@ -65,7 +65,7 @@ fn the_table_has_limits_brackets_and_fits_and_says_who_has_none() {
     );
 }
 
-/// Unasked the axisymmetric limit is the first line, where no first choice is judged; elsewhere the judged one is.
+/// Unasked the axisymmetric limit is the first line, where no first choice is judged nor the nose flat; elsewhere the first choice is.
 #[test]
 fn the_first_line_has_the_limit_to_use() {
     let head = |case: &str, arguments: &[&str]| {
@@ -82,6 +82,16 @@ fn the_first_line_has_the_limit_to_use() {
         (line.unwrap_or_default().to_owned(), flat(&text))
     };
     let (line, text) = head(BLUNT, &[]);
+    assert!(
+        line.starts_with(
+            "Ballistic limit 182.6 m/s (power_balance), -1.1 % from the measured 184.5 m/s"
+        ),
+        "{text}"
+    );
+    assert!(text.contains(" axisymmetric limit 2"), "{text}");
+    assert!(text.contains("★ recommended: power_balance: "), "{text}");
+    let round = BLUNT.replace("'20 mm'", "'20 mm', nose = 'hemisphere'");
+    let (line, text) = head(&round, &[]);
     assert!(line.starts_with("Axisymmetric ballistic limit 2"), "{text}");
     assert!(line.contains("from the measured 184.5 m/s"), "{line}");
     assert!(text.contains("★ recommended: axi: "), "{text}");
@@ -94,7 +104,7 @@ fn the_first_line_has_the_limit_to_use() {
     assert!(text.contains(" axisymmetric limit "), "{text}");
     let (line, text) = head(BLUNT, &["--fast"]);
     assert!(
-        line.starts_with("Ballistic limit 168.5 m/s (power_balance), -8.7 %"),
+        line.starts_with("Ballistic limit 182.6 m/s (power_balance), -1.1 %"),
         "{text}"
     );
     assert!(!text.contains("axisymmetric limit"), "{text}");

@@ -122,7 +122,7 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
         .any(|(material, _)| material.damage.is_some());
     if free && is_plate(run.scenario) && can_fail && run.scenario.projectile.nose == Nose::Flat {
         warnings.push(
-            "whether a plate fails under a blunt nose is uncertain: limits by `axi` are 1.3 to 2.1 times those of `power_balance`; `percuss limit` \
+            "whether a plate fails under a blunt nose is uncertain: limits by `axi` are up to 2.1 times those of `power_balance`; `percuss limit` \
              gives both"
                 .to_owned(),
         );

@@ -38,6 +38,18 @@ impl Choice {
             because: fitting.because,
         })
     }
+
+    /// [`Self::of`] where the case is in all ranges of the model.
+    pub fn within(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> Option<Self> {
+        let choice = Self::of(model, scenario, regime);
+        choice.filter(|_| outside(model, scenario).is_none())
+    }
+}
+
+/// The range of a model that a case is outside of, in words.
+fn outside(model: &dyn Model, scenario: &Scenario) -> Option<String> {
+    let mut ranges = model.validity().ranges.iter();
+    ranges.find_map(|range| range.diagnostic(scenario))
 }
 
 /// Whether a model gives a result, and why if it does not.
@@ -65,8 +77,7 @@ impl FirstChoices {
             let Some(choice) = Choice::of(*model, scenario, regime) else {
                 continue;
             };
-            let mut ranges = model.validity().ranges.iter();
-            match (result, ranges.find_map(|range| range.diagnostic(scenario))) {
+            match (result, outside(*model, scenario)) {
                 (Ok(()), None) => choices.given.push(choice),
                 (Ok(()), Some(reason)) => choices.missed.push((choice.model, reason)),
                 (Err(reason), _) => choices.missed.push((choice.model, (*reason).to_owned())),

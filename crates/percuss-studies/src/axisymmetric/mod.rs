@@ -31,6 +31,7 @@ use serde::Serialize;
 
 use crate::{
     Error, Scenario,
+    limit_error::another_outcome,
     model::{self, Control, Model},
     outcome::{BandQuantity, Outcome, RunResult},
     problem::RearFaceCondition,
@@ -296,7 +297,12 @@ impl AxisymmetricAnswer {
             quantity: Some(quantity),
             value,
             uncertainty,
-            doubt: doubt(scenario, reference, value, uncertainty),
+            doubt: doubt(
+                scenario,
+                reference,
+                value.zip(Some(finest.outcome)),
+                uncertainty,
+            ),
             order: limit.and_then(|limit| limit.order),
             depth_of_penetration_mm: of(BandQuantity::DepthOfPenetration),
             residual_velocity_m_s: of(BandQuantity::ResidualVelocity),
@@ -308,11 +314,12 @@ impl AxisymmetricAnswer {
     }
 }
 
-/// Why a value in the limit of meshes is not one to use: a material breaks, or the meshes do not settle it.
+/// Why a value in the limit of meshes, with the outcome, is not one to use: a material breaks, the meshes do not settle it, or the limit to use
+/// lies on the other side.
 fn doubt(
     scenario: &Scenario,
     meshes: ReferenceMeshes,
-    value: Option<f64>,
+    found: Option<(f64, Outcome)>,
     uncertainty: Option<f64>,
 ) -> Option<String> {
     let brittle = scenario.brittle();
@@ -322,7 +329,14 @@ fn doubt(
             "{ids} is brittle, and stays whole in `{MODEL}`: `particles` breaks it"
         ));
     }
-    let reason = match (value?, uncertainty) {
+    let (value, outcome) = found?;
+    if let Some((model, other)) = another_outcome(scenario, outcome) {
+        return Some(format!(
+            "`{model}`, whose ballistic limit is the one to use here, has another outcome ({}): `percuss limit` gives both limits",
+            other.describe()
+        ));
+    }
+    let reason = match (value, uncertainty) {
         (_, None) => "the meshes differ in their outcome",
         (value, Some(error)) if error > value.abs() => {
             "the error of the meshes is larger than the number"

@@ -15,7 +15,6 @@
 //! ```
 
 mod axisymmetric;
-mod expected;
 mod fit;
 mod jobs;
 mod rear_face;
@@ -35,14 +34,14 @@ use crate::{
     analytic::InputLimit,
     axisymmetric::Request,
     compare::{Choice, ExperimentRecord},
-    cost,
+    cost, limit_error,
     model::{Estimate, Model},
     outcome::BandQuantity,
 };
 
 pub use crate::compare::{Observer, Progress};
+pub use crate::limit_error::ExpectedLimitError;
 pub use axisymmetric::{AxisymmetricLimit, LimitOnMesh};
-pub use expected::ExpectedLimitError;
 pub use fit::{LambertJonasFit, fit_lambert_jonas, fit_lambert_jonas_from};
 pub use rear_face::{RearFace, with_free_rear_face};
 
@@ -278,7 +277,7 @@ fn searched(
     drop(report);
     for (model, entry) in models.iter().zip(&mut results) {
         let limit = entry.ballistic_limit_m_s;
-        let expected = limit.map(|limit| expected::expected_error(*model, scenario, limit));
+        let expected = limit.map(|limit| limit_error::expected_error(*model, scenario, limit));
         entry.expected_error = expected.flatten();
     }
     let of_models = LimitRange::of(&results, None);

@@ -2,19 +2,20 @@
 
 use super::{AxisymmetricLimit, LimitOutcome, ModelLimit};
 use crate::{
-    Scenario, axi, axisymmetric::MODEL, compare::Choice, model::Model, outcome::BandQuantity,
-    regime::Regime, units::significant,
+    Scenario, axi, axisymmetric::MODEL, compare::Choice, limit_error::comes_first, model::Model,
+    outcome::BandQuantity, regime::Regime, units::significant,
 };
 
-/// Ratio of two limits from which on they contradict each other: more than the errors of both on published limits under blunt noses (RMS of
-/// `power_balance` 14 % on steel, `axi` 12 % high).
+/// Ratio of two limits from which on the axisymmetric one is named beside the recommended one: more than the errors of both on published limits
+/// under blunt noses (RMS of `power_balance` 14 % on steel, `axi` 12 % high).
 const CONTRADICTION: f64 = 1.3;
 
 /// The first choices among the models that predict limits, each classified at its own limit, and what to know of them.
 ///
 /// A first choice that predicts depths alone has not been compared with measured limits: it is named, not recommended. An axisymmetric
-/// limit of targets that can fail is the first choice where no other one has an expected error, and none contradicts it. The last value is that
-/// limit where one does [m/s].
+/// limit of targets that can fail is the first choice where no other one has an expected error, but not before a first choice under flat noses:
+/// failure around a plug is the least certain part of `axi`. None of this depends on a limit that was found, so that the choice does not change
+/// along a series of thicknesses. The last value is an axisymmetric limit that is far from the recommended one [m/s].
 pub(super) fn recommended(
     models: &[&dyn Model],
     scenario: &Scenario,
@@ -22,43 +23,47 @@ pub(super) fn recommended(
     axisymmetric: Option<&AxisymmetricLimit>,
 ) -> (Vec<Choice>, Option<String>, Option<f64>) {
     let (choices, note) = of_models(models, scenario, results);
-    let is_judged = |choice: &Choice| {
-        let mut results = results.iter().filter(|entry| entry.model == choice.model);
-        results.any(|entry| entry.expected_error.is_some())
-    };
     let value = axisymmetric.and_then(|limit| limit.ballistic_limit_m_s);
     let cannot_fail = !axi::layers_that_cannot_fail(scenario).is_empty();
     // Without failure a plate only stretches and thins: the limit is too high.
     let Some(value) = value.filter(|_| !cannot_fail) else {
         return (choices, note, None);
     };
+    let judged = choices
+        .iter()
+        .any(|choice| is_judged(results, choice.model));
+    if choices.is_empty() || !comes_first(scenario, judged) {
+        let because = "it solves the whole impact, its mesh error is known, and no first choice has been compared with enough published limits of this kind";
+        let choice = Choice {
+            model: MODEL,
+            because,
+        };
+        return (vec![choice], None, None);
+    }
     let ratio = |choice: &Choice| {
         let entry = results.iter().find(|entry| entry.model == choice.model);
         Some(value / entry?.ballistic_limit_m_s?)
     };
-    let judged = choices.iter().any(is_judged);
     let mut ratios = choices.iter().filter_map(ratio);
-    if let Some(ratio) = ratios.find(|ratio| ratio.max(1.0 / ratio) > CONTRADICTION) {
-        let advice = match judged {
-            true => "the error stated with it is that on published limits of its kind",
-            false => "take the range of all models as the uncertainty",
-        };
-        let contradiction = format!(
-            "the axisymmetric limit is {} times that of this model. Failure of plates is the least certain part of `axi`: {advice}",
-            significant(ratio, 2)
-        );
-        let notes = note.into_iter().chain([contradiction]);
-        return (choices, Some(Vec::from_iter(notes).join("; ")), Some(value));
-    }
-    if judged {
+    let Some(ratio) = ratios.find(|ratio| ratio.max(1.0 / ratio) > CONTRADICTION) else {
         return (choices, note, None);
-    }
-    let because = "it solves the whole impact, its mesh error is known, and no first choice has been compared with enough published limits of this kind";
-    let choice = Choice {
-        model: MODEL,
-        because,
     };
-    (vec![choice], None, None)
+    let advice = match judged {
+        true => "the error stated with it is that on published limits of its kind",
+        false => "take the range of all models as the uncertainty",
+    };
+    let contradiction = format!(
+        "the axisymmetric limit is {} times that of this model. Failure of plates is the least certain part of `axi`: {advice}",
+        significant(ratio, 2)
+    );
+    let notes = note.into_iter().chain([contradiction]);
+    (choices, Some(Vec::from_iter(notes).join("; ")), Some(value))
+}
+
+/// Whether the error of a model's limit is known.
+fn is_judged(results: &[ModelLimit], model: &str) -> bool {
+    let mut results = results.iter().filter(|entry| entry.model == model);
+    results.any(|entry| entry.expected_error.is_some())
 }
 
 /// The first choices among the models without the axisymmetric limit.
@@ -82,7 +87,12 @@ fn of_models(
     let choices = |of: fn(&Scenario) -> Option<Regime>| -> Vec<(&dyn Model, Choice)> {
         let fitting = found.iter().filter_map(|(model, limit)| {
             let scenario = scenario.at_impact_velocity(*limit);
-            let choice = Choice::of(*model, &scenario, &of(&scenario)?)?;
+            let regime = of(&scenario)?;
+            // A model outside its ranges comes first only where its error there is known.
+            let choice = match is_judged(results, model.name()) {
+                true => Choice::of(*model, &scenario, &regime),
+                false => Choice::within(*model, &scenario, &regime),
+            }?;
             Some((*model, choice))
         });
         fitting.collect()

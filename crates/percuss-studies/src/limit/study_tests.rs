@@ -171,11 +171,10 @@ fn the_first_choice_at_its_own_limit_is_recommended() {
     let light = of(&scenario(&light), &models);
     let expected = light.results[0].expected_error.as_ref().unwrap();
     assert!(expected.errors.low < expected.errors.median, "{expected:?}");
-    // The aluminium plates of published limits have no damage in their records.
+    // The aluminium plates of published limits have no damage in their records, which changes no limit of these models.
     let damaged = BLUNT.replace("weldox-460-e", "6061-t6-lesuer");
     let damaged = of(&scenario(&damaged), &models);
-    assert_eq!(damaged.results[0].expected_error, None);
-    assert!(damaged.results[1].expected_error.is_some());
+    assert_eq!(damaged.without_expected_error(), Vec::<&str>::new());
     // The chain is a first choice for depths; its limits have not been compared with measured ones.
     let sheet = of(&sheet(""), &[&Chain]);
     assert_eq!(
@@ -184,6 +183,27 @@ fn the_first_choice_at_its_own_limit_is_recommended() {
     );
     let note = sheet.note.unwrap();
     assert!(note.contains("no model is the first choice"), "{note}");
+}
+
+/// A model outside its ranges does not come first where its error there is not known: a rod of tool steel deforms in three diameters of RHA.
+#[test]
+fn a_limit_outside_the_ranges_of_its_model_is_not_recommended() {
+    let of = |thickness: f64| {
+        let case = scenario(&format!(
+            r#"
+            projectile = {{ material = "tool-steel-hrc53", length = "60 mm", diameter = "10 mm", impact_velocity = "400 m/s" }}
+            target = {{ material = "rha-class-1", thickness = "{thickness} mm" }}
+            "#
+        ));
+        let search = search(0.0, 1600.0, 0);
+        limits(&[&PowerBalance], &case, &search, &mut Observer::default()).unwrap()
+    };
+    assert!(of(15.0).is_recommended("power_balance"));
+    let thick = of(30.0);
+    assert_eq!(
+        (thick.results[0].outcome, thick.recommended.len()),
+        (LimitOutcome::Found, 0)
+    );
 }
 
 /// A disc, a thin plate and a search by `axi` that take a second.
@@ -206,7 +226,8 @@ fn disc(budget: Option<f64>) -> (Scenario, Search) {
     (disc, search)
 }
 
-/// The axisymmetric limit is the choice where no first choice has an expected error; a plate without data of failure leaves it out.
+/// The axisymmetric limit is the choice where no first choice has an expected error, but for flat noses; a plate without data of failure leaves it
+/// out.
 #[test]
 fn the_axisymmetric_limit_is_recommended_where_no_other_one_is_judged() {
     let (steel, search) = disc(None);
@@ -217,7 +238,7 @@ fn the_axisymmetric_limit_is_recommended_where_no_other_one_is_judged() {
     let chosen = |found: &Limits| Vec::from_iter(found.recommended.iter().map(|c| c.model));
     let found = by(&AwerbuchBodner, &steel);
     assert_eq!((chosen(&found), found.note), (vec!["axi"], None));
-    // A first choice that contradicts it stands before it, with the range.
+    // A first choice under a flat nose stands before it, with the range where they differ much.
     let found = of(&steel);
     assert_eq!(chosen(&found), ["power_balance"]);
     let axisymmetric = found.axisymmetric.as_ref().unwrap();

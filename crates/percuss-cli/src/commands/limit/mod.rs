@@ -51,9 +51,9 @@ take more than 60 s of processor time, unless --reference is given.
 The rear face of a plate is free unless the case gives `target.back_face`;
 behind a fixed one perforation is impossible. The first line has the limit to
 use: that of the recommended model, marked with ★, if its errors on published
-limits of the same kind are known, otherwise the axisymmetric one. `recht_ipson`
-and `lambert_jonas` need a limit as input: only their residual velocities are
-listed.
+limits of the same kind are known or the nose is flat, otherwise the
+axisymmetric one. `recht_ipson` and `lambert_jonas` need a limit as input: only
+their residual velocities are listed.
 
 With --tests FILE.csv V50, the velocity at which the probability of perforation
 is 50 %, is estimated from test results: by maximum likelihood (probit and

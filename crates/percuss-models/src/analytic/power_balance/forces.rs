@@ -6,7 +6,7 @@ use super::{
     fields::{Layer, Rim, Slip, hole, punch, rim},
     motion::{Impact, MotionState},
 };
-use crate::{analytic::nose_shape::radius, material::DamageState, regime::nose_factor};
+use crate::{analytic::nose_shape::radius, regime::nose_factor};
 
 /// Layers of the plate.
 pub(super) const LAYERS: usize = 16;
@@ -36,14 +36,12 @@ impl Impact {
             let slip_rate = (plug - dish).max(0.0);
             let slip = now.slip + 0.5 * duration * slip_rate;
             next.rim = self.band(now, slip, slip_rate);
-            self.damage_band(now, next);
             let height = self.thickness - slip - now.sunk - 0.5 * duration * relative;
-            let whole = next.damage < 1.0;
             let rim = PI * self.diameter * height.max(0.0) * next.rim.stress;
             Forces {
                 local,
                 inertial,
-                rim: if whole { rim } else { 0.0 },
+                rim,
             }
         } else {
             let relative = (projectile - dish).max(0.0);
@@ -57,13 +55,10 @@ impl Impact {
         }
     }
 
-    /// The band at the rim; a failed one stays as it was.
+    /// The band at the rim.
     ///
     /// It grows to the widest of all slips on the way: a step that passes many of them must not leave one out.
     fn band(&self, now: &MotionState, slip: f64, slip_rate: f64) -> Rim {
-        if now.damage >= 1.0 {
-            return now.rim;
-        }
         // A rim at rest has the band of the least slip.
         let least = LEAST_SLIP * self.thickness;
         let slip = slip.max(least);
@@ -85,19 +80,6 @@ impl Impact {
             }
             width = band.width;
         }
-    }
-
-    /// Damage of the band by the record's law at no mean stress.
-    fn damage_band(&self, now: &MotionState, next: &mut MotionState) {
-        let Some(law) = &self.damage else {
-            return;
-        };
-        let state = DamageState {
-            triaxiality: 0.0,
-            strain_rate: next.rim.rate,
-            temperature: self.flow.temperature(next.rim.strain),
-        };
-        next.damage = law.grow(0.0, &state, next.rim.strain).max(now.damage);
     }
 
     /// Plastic and inertial force on a flat face [N] that sinks at a relative speed [m/s].

@@ -108,7 +108,7 @@ const UNDER_FLAT_ENDS: ValidityDomain = ValidityDomain {
     fitted_to: &[
         FittedTo {
             sources: &["borvik2002a"],
-            because: "the rule that the band of a plug keeps its width was found on this limit; no number was fitted",
+            because: "the rules that the band of a plug keeps its width, and that no damage of its record ends it, were found on this limit; no number was fitted",
         },
         FittedTo {
             sources: PLATES,
@@ -137,7 +137,6 @@ fn impact(scenario: &Scenario, case: &PlateImpact<'_>) -> Option<Impact> {
         impedance: flexural_impedance(plate, case.thickness),
         hole_stress: HoleStress::new(&flow, nominal_rate),
         flow,
-        damage: plate.damage.as_ref().map(|damage| damage.prepare(plate)),
         cavity_pressures: [
             cavity_expansion_pressure(plate)?,
             cylindrical_cavity_pressure(plate)?,
@@ -315,7 +314,7 @@ fn describe(result: &mut RunResult, impact: &Impact, run: &Perforation) {
         detail("energy of displaced metal", "J", last.displaced),
         detail("energy lost where bodies join", "J", last.capture),
     ]);
-    let names = ["plate bulges from", "plug slips from", "band fails at"];
+    let names = ["plate bulges from", "plug slips from"];
     for (name, time) in names.into_iter().zip(run.stages) {
         if let Some(time) = time {
             result.details.push(detail(name, "us", time * 1e6));

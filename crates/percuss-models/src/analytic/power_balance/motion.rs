@@ -7,7 +7,7 @@ use super::{
     forces::Forces,
     links::{BODIES, Body, Row, Step, potential, step},
 };
-use crate::{material::PreparedDamage, minimum::least, problem::Nose};
+use crate::{minimum::least, problem::Nose};
 
 /// A rigid projectile against one plate.
 #[derive(Debug)]
@@ -26,8 +26,6 @@ pub(super) struct Impact {
     pub flow: Flow,
     /// Stress around a growing hole.
     pub hole_stress: HoleStress,
-    /// Damage of the plate's metal, where its record has one.
-    pub damage: Option<PreparedDamage>,
     /// Pressure of a spherical and a cylindrical cavity in the plate's metal [Pa].
     pub cavity_pressures: [f64; 2],
     /// Force that the elastic plate opposes to a velocity of its middle [N s/m]: `8 √(ρ h D)`.
@@ -65,8 +63,6 @@ pub(super) struct MotionState {
     pub rim: Rim,
     /// Radius of the metal that moves around the hole of a pointed or round nose, over that of the hole.
     pub extent: Option<f64>,
-    /// Damage of the band.
-    pub damage: f64,
     /// Plastic work of the local field [J].
     pub local_work: f64,
     /// Kinetic energy of the metal that the nose pushed aside [J].
@@ -95,7 +91,7 @@ pub(super) struct Perforation {
     /// Largest force on the projectile [N].
     pub peak_force: f64,
     /// Times at which the plate began to dish, the plug to slip, and the band failed [s].
-    pub stages: [Option<f64>; 3],
+    pub stages: [Option<f64>; 2],
     /// All moments, where they were asked for.
     pub moments: Vec<MotionState>,
     /// Plastic deflection of the plate, unless the end alone was asked for.
@@ -198,7 +194,7 @@ impl Impact {
             last: now,
             perforated: false,
             peak_force: 0.0,
-            stages: [None; 3],
+            stages: [None; 2],
             moments: Vec::new(),
             bulge: match self.bulging && keep != Keep::End {
                 true => Bulge::new(self.radius()),
@@ -269,11 +265,10 @@ impl Impact {
         now
     }
 
-    fn note_stages(&self, stages: &mut [Option<f64>; 3], now: &MotionState) {
+    fn note_stages(&self, stages: &mut [Option<f64>; 2], now: &MotionState) {
         let began = [
             now.deflection > 1e-6 * self.thickness,
             now.slip > 1e-6 * self.thickness,
-            now.damage >= 1.0,
         ];
         for (stage, began) in stages.iter_mut().zip(began) {
             if began {

@@ -8,6 +8,7 @@ use super::{
     history, impact,
     links::{Body, Row, step},
     motion::{Impact, Keep, MotionState},
+    order_of_limit,
 };
 use crate::{
     analytic::plate_impact::PlateImpact,
@@ -503,4 +504,36 @@ fn a_perforated_plate_comes_to_rest() {
             "{nose}"
         );
     }
+}
+
+/// A record's `damage` does not end the band of a plug: limits under a flat nose rise with the thickness, and are those of the record without it.
+#[test]
+fn limits_of_records_with_damage_rise_with_the_thickness() {
+    let limit = |damage: &str, thickness: f64| {
+        let text = format!(
+            "projectile = {{ material = 'tool-steel-hrc53', length = '60 mm', diameter = '10 mm', impact_velocity = '400 m/s' }}
+            target = {{ material = 'plate', thickness = '{thickness} mm', back_face = 'free' }}
+            [materials.plate]
+            name = 'plate'
+            density = '2700 kg/m3'
+            youngs_modulus = '70 GPa'
+            poissons_ratio = 0.33
+            specific_heat = '880 J/(kg K)'
+            melting_temperature = '925 K'
+            strength.johnson_cook = {{ a = '289.6 MPa', b = '203.4 MPa', n = 0.35, c = 0.011, m = 1.34, reference_rate = '1 1/s' }}
+            {damage}"
+        );
+        let scenario = case::load_str("plate", &text).unwrap_or_else(|error| panic!("{error}"));
+        let plate = PlateImpact::of(&scenario).unwrap();
+        let impact = impact(&scenario, &plate).unwrap();
+        impact.ballistic_limit(order_of_limit(&plate).unwrap())
+    };
+    // Those of 6061-T6 [banerjee-vaango]: a failure strain of 0.7 at no mean stress.
+    let damage = "damage = { d1 = -0.77, d2 = 1.45, d3 = -0.47, d4 = 0.0, d5 = 1.6, reference_rate = '1 1/s' }";
+    let limits = [3.0, 4.0, 5.0, 7.0, 10.0, 15.0, 20.0].map(|thickness| {
+        let found = limit(damage, thickness);
+        assert_eq!(found, limit("", thickness));
+        found
+    });
+    assert!(limits.is_sorted_by(|a, b| 1.02 * a < *b), "{limits:?}");
 }
