@@ -14,8 +14,8 @@ const CONTRADICTION: f64 = 1.3;
 ///
 /// A first choice that predicts depths alone has not been compared with measured limits: it is named, not recommended. An axisymmetric
 /// limit of targets that can fail is the first choice where no other one has an expected error, but not before a first choice under flat noses:
-/// failure around a plug is the least certain part of `axi`. None of this depends on a limit that was found, so that the choice does not change
-/// along a series of thicknesses. The last value is an axisymmetric limit that is far from the recommended one [m/s].
+/// failure around a plug is the least certain part of `axi`. How far the two are apart does not matter, so that the choice stays along a series
+/// of thicknesses. The last value is an axisymmetric limit that is far from the recommended one [m/s].
 pub(super) fn recommended(
     models: &[&dyn Model],
     scenario: &Scenario,
