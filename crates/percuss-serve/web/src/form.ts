@@ -43,8 +43,8 @@ export class Form {
     get("form").addEventListener("submit", (event) => event.preventDefault());
   }
 
-  // Follows the case; what the user is typing in stays as it is.
-  show(values: Values, model: string, inUse?: Record<string, string>): void {
+  // Follows the case; what the user is typing in stays as it is, and so do later edits, which still wait for their answer.
+  show(values: Values, model: string, inUse?: Record<string, string>, later?: ReadonlyMap<string, Edit>): void {
     this.values = values;
     const layers = layersOf(values);
     const shape = JSON.stringify([model, layers, Object.keys(values).filter((key) => key.startsWith("materials."))]);
@@ -55,7 +55,7 @@ export class Form {
     for (const { key, control } of this.controls) {
       const used = inUse?.[key];
       if (used !== undefined) control.inUse?.(used);
-      control.show(values);
+      if (!later?.has(key)) control.show(values);
       control.element.hidden = !control.present(values);
     }
   }

@@ -120,7 +120,7 @@ function show(answer: Answer, since: number | null, draft: boolean): void {
   form.mark("");
   model = answer.model;
   models.value = answer.model;
-  form.show(answer.values, answer.model, draft ? undefined : answer.in_use);
+  form.show(answer.values, answer.model, draft ? undefined : answer.in_use, pending?.edits);
   get("own-title").textContent = `Numbers of model ${answer.model}`;
   get("numbers").replaceChildren(...pairs(answer.rows[0]));
   get("more-numbers").querySelector("dl")?.replaceChildren(...pairs([...answer.rows[1], ...answer.rows[2]]));

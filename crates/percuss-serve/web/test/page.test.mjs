@@ -33,6 +33,32 @@ test("the numbers are those of the command line, to the last bit", async () => {
   await page.context().close();
 });
 
+// A slider asks for the next answer while one is computed.
+test("a field keeps its last value when the answer to an earlier one arrives", async () => {
+  const page = await open();
+  const release = [];
+  await page.route("**/api/answer", async (route) => {
+    await new Promise((resolve) => release.push(resolve));
+    await route.continue();
+  });
+  const count = await page.evaluate(() => Number(document.documentElement.dataset.answers));
+  await page.locator("#field-projectile-impact_velocity-slider").evaluate((slider) => {
+    for (const place of ["200", "300"]) {
+      slider.value = place;
+      slider.dispatchEvent(new Event("input"));
+    }
+  });
+  const speed = await page.locator("#field-projectile-impact_velocity").inputValue();
+  for (let answer = 0; answer < 2; answer++) {
+    while (release.length <= answer) await page.waitForTimeout(10);
+    release[answer]();
+    await answered(page, count + answer + 1);
+    assert.equal(await page.locator("#field-projectile-impact_velocity").inputValue(), speed);
+  }
+  assert.ok((await page.locator("#text").inputValue()).includes(`impact_velocity = "${speed} m/s"`));
+  await page.context().close();
+});
+
 test("curves and text follow a slider while it moves", async () => {
   const page = await open();
   const before = await pixels(page, "depth-time");
