@@ -9,6 +9,7 @@ pub mod converge;
 pub mod cost;
 pub mod experiments;
 pub mod limit;
+mod limit_choice;
 mod limit_error;
 #[cfg(test)]
 mod made_up;

@@ -8,10 +8,9 @@ use crate::{
     Scenario,
     experiments::{self, Kind, Split},
     material::{Library, Material},
-    model::{Choice, Control, Model, fast_models},
+    model::{Model, fast_models},
     model_error::ModelErrorEstimate,
-    outcome::{BandQuantity, Outcome},
-    problem::RearFaceCondition,
+    outcome::BandQuantity,
     regime::{ProjectileRegime, Regime, TargetKind, at_least, nose_factor},
     scenario::TargetBody,
     validate::{self, Standing},
@@ -205,41 +204,6 @@ pub(super) fn expected_error(
     expected_among(&errors, &plate)
 }
 
-/// Whether the limit of a first choice comes before the axisymmetric one: its error is known, or the nose is flat. Failure around a plug is the
-/// least certain part of `axi`.
-pub(crate) fn comes_first(scenario: &Scenario, is_judged: bool) -> bool {
-    is_judged || NoseKind::of(scenario.projectile.nose) == NoseKind::Flat
-}
-
-/// A first choice for limits that comes before the axisymmetric one and sees another outcome of an impact on a plate with a free rear face: its name
-/// and its outcome.
-pub(crate) fn another_outcome(
-    scenario: &Scenario,
-    outcome: Outcome,
-) -> Option<(&'static str, Outcome)> {
-    if scenario.rear_face() != Some(RearFaceCondition::Free) {
-        return None;
-    }
-    let regime = Regime::of(scenario);
-    let models = fast_models().into_iter().filter(|model| {
-        let predicts = model.validity().predicts;
-        predicts.contains(&BandQuantity::BallisticLimit)
-            && Choice::of(*model, scenario, &regime).is_some()
-    });
-    let others = models.filter_map(|model| {
-        let found = model.run(scenario, &mut Control::default()).ok()?.outcome;
-        let is_open = |outcome| matches!(outcome, Outcome::OutOfTime | Outcome::Failed);
-        let differs = (found == Outcome::Perforated) != (outcome == Outcome::Perforated)
-            && !is_open(found)
-            && !is_open(outcome);
-        let is_judged = || expected_error(model, scenario, scenario.impact_velocity).is_some();
-        let is_within = || Choice::within(model, scenario, &regime).is_some();
-        let counts = differs && ((comes_first(scenario, false) && is_within()) || is_judged());
-        counts.then_some((model.name(), found))
-    });
-    others.into_iter().next()
-}
-
 /// A condition on published limits, and what it is in words.
 type Level<'a> = (Box<dyn Fn(&Plate) -> bool + 'a>, String);
 
@@ -390,38 +354,5 @@ mod tests {
         // Four published limits of flat noses on steel are too few; limits of the chain have not been compared.
         assert_eq!(of("weldox-460-e", "plugging", ""), None);
         assert_eq!(of(light, "chain", ""), None);
-    }
-
-    /// The limit that comes first decides on which side an impact lies: the other outcome is named, if it is certain.
-    #[test]
-    fn an_outcome_on_the_other_side_of_the_limit_to_use_is_named() {
-        let of = |velocity: f64, nose: &str, face: &str| {
-            let text = format!(
-                "projectile = {{ material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', impact_velocity = '{velocity} m/s', nose = {nose} }}\n\
-                 target = {{ material = 'weldox-460-e', thickness = '12 mm', back_face = '{face}' }}"
-            );
-            case::load_str("blunt", &text).unwrap()
-        };
-        let flat =
-            |velocity: f64, outcome| another_outcome(&of(velocity, "'flat'", "free"), outcome);
-        let by_plug = |outcome| Some(("power_balance", outcome));
-        assert_eq!(
-            flat(250.0, Outcome::Rebounded),
-            by_plug(Outcome::Perforated)
-        );
-        assert_eq!(flat(150.0, Outcome::Perforated), by_plug(Outcome::AtRest));
-        assert_eq!(flat(250.0, Outcome::Perforated), None);
-        assert_eq!(flat(150.0, Outcome::Rebounded), None);
-        assert_eq!(flat(250.0, Outcome::OutOfTime), None);
-        let held = of(250.0, "'flat'", "fixed");
-        assert_eq!(another_outcome(&held, Outcome::Rebounded), None);
-        // Too few limits of sharp noses on steel are published for one to come before `axi`; of cores on aluminium there are enough.
-        let cone = of(200.0, "{ cone = { length_to_diameter = 1.7 } }", "free");
-        assert_eq!(another_outcome(&cone, Outcome::Perforated), None);
-        let core = "projectile = { material = 'apm2-core', mass = '5.25 g', diameter = '6.17 mm', impact_velocity = '580 m/s', nose = { ogive = { crh = 3.0 } } }\n\
-             target = { material = '6061-t6', thickness = '26 mm', back_face = 'free' }";
-        let core = case::load_str("core", core).unwrap();
-        let by_hole = another_outcome(&core, Outcome::Perforated);
-        assert_eq!(by_hole, Some(("plate_cavity", Outcome::AtRest)));
     }
 }

@@ -31,7 +31,7 @@ use serde::Serialize;
 
 use crate::{
     Error, Scenario,
-    limit_error::another_outcome,
+    limit_choice::another_outcome,
     model::{self, Control, Model},
     outcome::{BandQuantity, Outcome, RunResult},
     problem::RearFaceCondition,

@@ -2,12 +2,18 @@
 
 use super::{AxisymmetricLimit, LimitOutcome, ModelLimit};
 use crate::{
-    Scenario, axi, axisymmetric::MODEL, compare::Choice, limit_error::comes_first, model::Model,
-    outcome::BandQuantity, regime::Regime, units::significant,
+    Scenario, axi,
+    axisymmetric::MODEL,
+    compare::Choice,
+    limit_choice::{comes_first, first_choice},
+    model::Model,
+    outcome::BandQuantity,
+    regime::Regime,
+    units::significant,
 };
 
 /// Ratio of two limits from which on the axisymmetric one is named beside the recommended one: more than the errors of both on published limits
-/// under blunt noses (RMS of `power_balance` 14 % on steel, `axi` 12 % high).
+/// under blunt noses (RMS of `power_balance` 13 % on steel, `axi` 12 % high).
 const CONTRADICTION: f64 = 1.3;
 
 /// The first choices among the models that predict limits, each classified at its own limit, and what to know of them.
@@ -88,12 +94,8 @@ fn of_models(
         let fitting = found.iter().filter_map(|(model, limit)| {
             let scenario = scenario.at_impact_velocity(*limit);
             let regime = of(&scenario)?;
-            // A model outside its ranges comes first only where its error there is known.
-            let choice = match is_judged(results, model.name()) {
-                true => Choice::of(*model, &scenario, &regime),
-                false => Choice::within(*model, &scenario, &regime),
-            }?;
-            Some((*model, choice))
+            let judged = is_judged(results, model.name());
+            Some((*model, first_choice(*model, &scenario, &regime, judged)?))
         });
         fitting.collect()
     };
