@@ -39,7 +39,7 @@ Examples:
   percuss run CASE.toml --model axi        run by the axisymmetric model alone
   percuss run CASE.toml --json             print one JSON object for scripts
   percuss compare my-case/scenario.toml    compare the results of all models
-  percuss limit my-case/scenario.toml      find its ballistic limit
+  percuss limit CASE.toml                  find the ballistic limit of a plate
   percuss sweep my-sweep.toml --out rows   vary a case; one row per run
   percuss converge my-case/scenario.toml   check its mesh convergence
   percuss serve                            interactive page in a browser
@@ -182,7 +182,17 @@ impl Command {
             Self::Converge(command) => command.figures.figure_width,
             Self::Validate(command) => command.figures.figure_width,
             Self::Materials(command) => command.figure_width(),
-            _ => None,
+            #[cfg(not(feature = "parquet"))]
+            Self::Sweep(_) => None,
+            Self::Benchmark(_)
+            | Self::Serve(_)
+            | Self::New(_)
+            | Self::Models(_)
+            | Self::Export(_)
+            | Self::Schema(_)
+            | Self::Reproduce(_)
+            | Self::Completions(_)
+            | Self::Man(_) => None,
         }
     }
 

@@ -424,3 +424,36 @@ fn further_columns_of_tests_are_noted() {
         said.stderr
     );
 }
+
+/// A plate thinner than a cell of the coarsest mesh: material at the axis moves with the plate for as long as the run lasts.
+#[test]
+fn a_plate_thinner_than_a_cell_has_no_axisymmetric_limit() {
+    let folder = folder(&BLUNT.replace("'12 mm'", "'1 mm'"));
+    let text = ok(&folder, &["shot.toml", "--points", "0"]);
+    let words = "thinner than a cell of the coarsest mesh, 3 cells per radius: take finer ones by `--reference fine`";
+    assert!(flat(&text).contains(words), "{text}");
+}
+
+/// The scan of 17 velocities has none at which this model perforates within its range; the limit is found all the same.
+#[test]
+fn the_range_of_the_search_does_not_hide_a_limit() {
+    let cone = "
+projectile = { material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', impact_velocity = '300 m/s', nose = { cone = { angle = '33.4 deg' } } }
+target = { material = 'weldox-460-e', thickness = '20 mm' }
+";
+    let folder = folder(cone);
+    let of = |range: &[&str]| {
+        let arguments = [
+            "shot.toml",
+            "--model",
+            "plate_cavity",
+            "--points",
+            "0",
+            "--json",
+        ];
+        let found = json(&ok(&folder, &[&arguments[..], range].concat()));
+        found["results"][0]["ballistic_limit_m_s"].as_f64().unwrap()
+    };
+    let [whole, narrow] = [of(&[]), of(&["--velocity", "200..450"])];
+    assert!((whole / narrow - 1.0).abs() < 1e-3, "{whole}, {narrow}");
+}

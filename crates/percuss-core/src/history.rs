@@ -20,7 +20,7 @@ pub struct Sample {
     pub tip_velocity: f64,
     /// Velocity of the projectile's rear end [m/s].
     pub tail_velocity: f64,
-    /// Speed of the target's struck face, the crater floor [m/s].
+    /// Speed of the target's struck face, the crater floor [m/s]; no number on a rigid wall.
     pub interface_velocity: f64,
     /// Speed of the target's rear face [m/s]; no number where there is none.
     pub back_velocity: f64,
@@ -34,7 +34,7 @@ pub struct Sample {
     pub projectile_length: f64,
     /// Force between projectile and target [N].
     pub contact_force: f64,
-    /// Force on the rear face [N].
+    /// Force on the rear face [N]; no number where there is none.
     pub back_force: f64,
     /// Length of a straight crack that takes as many bonds as are broken [m]; 0 from a model without cracks.
     pub crack_length: f64,

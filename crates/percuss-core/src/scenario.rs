@@ -257,6 +257,21 @@ impl Scenario {
         }
     }
 
+    /// Bodies by their names in messages, each with its material: the projectile, then the layers of the target.
+    pub fn bodies(&self) -> Vec<(String, &Material)> {
+        let layers = self.layers();
+        let name = |i: usize| match layers.len() {
+            1 => "target".to_owned(),
+            _ => format!("layer {}", i + 1),
+        };
+        let targets = layers.iter().enumerate();
+        let targets = targets.map(|(i, layer)| (name(i), &*layer.material));
+        [("projectile".to_owned(), &*self.projectile.material)]
+            .into_iter()
+            .chain(targets)
+            .collect()
+    }
+
     /// Whether a body is not at the temperature that its material was measured at.
     pub fn is_heated(&self) -> bool {
         let rod = &self.projectile;

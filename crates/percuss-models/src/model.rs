@@ -3,6 +3,7 @@
 mod choice;
 mod label;
 mod recommend;
+mod unread;
 
 use crate::{
     Error,
@@ -23,6 +24,7 @@ pub use choice::{ChosenModel, DEFAULT_MODEL, choose, default_model};
 pub use label::label;
 pub use recommend::recommend;
 pub use recommend::{Choice, Recommendation};
+pub use unread::why_unread;
 
 pub use crate::solver::{
     CHECKPOINT_START, Checkpoints, Control, CostClass, Model, OnFrame, Progress, applicability,

@@ -100,9 +100,7 @@ pub(crate) fn velocity(history: &History, result: &RunResult, caption: &str) -> 
 pub(crate) fn force(history: &History, result: &RunResult, caption: &str) -> Option<LineChart> {
     let samples = || history.samples.iter();
     let struck = samples().any(|s| s.contact_force != 0.0);
-    // A rigid wall has only one face.
-    let behind = samples().any(|s| s.back_force != 0.0)
-        && samples().any(|s| s.back_force != s.contact_force);
+    let behind = samples().any(|s| s.back_force.is_finite() && s.back_force != 0.0);
     let mut chart = chart("force-time", "Force versus time", "Force (kN)", caption);
     if struck {
         let curve = series("contact force", history, |s| s.contact_force * 1e-3);

@@ -1,6 +1,9 @@
 //! Expected error of a ballistic limit: the errors of its model on published limits of the same kind.
 
-use std::sync::{LazyLock, OnceLock};
+use std::{
+    f64::consts::PI,
+    sync::{LazyLock, OnceLock},
+};
 
 use serde::Serialize;
 
@@ -11,7 +14,7 @@ use crate::{
     model::{Model, fast_models},
     model_error::ModelErrorEstimate,
     outcome::BandQuantity,
-    regime::{ProjectileRegime, Regime, TargetKind, at_least, nose_factor},
+    regime::{ProjectileRegime, Regime, STRENGTH_STRAIN, TargetKind, at_least, nose_factor},
     scenario::TargetBody,
     validate::{self, Standing},
     validity::{Measure, NoseKind, Range},
@@ -21,6 +24,10 @@ use crate::{
 const FEWEST: usize = 5;
 /// Factor by which densities and Young's moduli of plates of the same kind of metal differ at most.
 const SAME_METAL: f64 = 1.3;
+/// Factor by which flow stresses of plates that are about as strong differ at most.
+const SAME_STRENGTH: f64 = 2.0;
+/// Difference of angles to the normal that are about the same, at most [rad].
+const SAME_ANGLE: f64 = 10.0 * PI / 180.0;
 /// Factor by which the shape factors of noses that are about as sharp differ at most.
 const SAME_NOSE: f64 = 2.0;
 
@@ -62,6 +69,9 @@ struct Plate {
     target: TargetKind,
     density: f64,
     youngs_modulus: f64,
+    flow_stress: f64,
+    /// Angle between the path and the normal of the plate [rad].
+    obliquity: f64,
 }
 
 impl Plate {
@@ -85,20 +95,36 @@ impl Plate {
             target: regime.target,
             density: material.density.si(),
             youngs_modulus: material.youngs_modulus.si(),
+            flow_stress: material.flow_stress(STRENGTH_STRAIN)?,
+            obliquity: scenario.obliquity,
         })
     }
 
     fn is_of_metal(&self, other: &Self) -> bool {
-        let near = |a: f64, b: f64| (a / b).max(b / a) <= SAME_METAL;
-        near(self.density, other.density) && near(self.youngs_modulus, other.youngs_modulus)
+        let near = |a: f64, b: f64, factor: f64| (a / b).max(b / a) <= factor;
+        near(self.density, other.density, SAME_METAL)
+            && near(self.youngs_modulus, other.youngs_modulus, SAME_METAL)
+            && near(self.flow_stress, other.flow_stress, SAME_STRENGTH)
     }
 
-    /// Whether the other one is of such a metal and struck by such a nose: errors on others say nothing.
+    /// Whether the other one is of such a metal and struck by such a nose at such an angle: errors on others say nothing.
     fn is_like(&self, other: &Self) -> bool {
         let sharper = self.nose_factor / other.nose_factor;
         let is_as_sharp =
             at_least(sharper, 1.0 / SAME_NOSE) && at_least(1.0 / sharper, 1.0 / SAME_NOSE);
-        other.is_flat == self.is_flat && is_as_sharp && self.is_of_metal(other)
+        let turned = (self.obliquity - other.obliquity).abs();
+        other.is_flat == self.is_flat
+            && is_as_sharp
+            && at_least(SAME_ANGLE, turned)
+            && self.is_of_metal(other)
+    }
+
+    /// What the plates of the published limits have in common with it in any case.
+    fn metal(&self) -> &'static str {
+        match self.obliquity == 0.0 {
+            true => "such a metal, about as strong",
+            false => "such a metal, about as strong, at about such an angle",
+        }
     }
 
     fn nose(&self) -> &'static str {
@@ -212,22 +238,22 @@ fn expected_among(errors: &[&LimitError], plate: &Plate) -> Option<ExpectedLimit
     let metal = move |other: &Plate| plate.is_like(other);
     let thickness = move |other: &Plate| metal(other) && other.target == plate.target;
     let regime = move |other: &Plate| thickness(other) && other.projectile == plate.projectile;
-    let (shape, kind) = (plate.nose(), plate.target.describe());
+    let (shape, kind, metal_in_words) = (plate.nose(), plate.target.describe(), plate.metal());
     let levels: [Level<'_>; 3] = [
         (
             Box::new(regime),
             format!(
-                "{} projectiles with {shape} on {kind} of such a metal",
+                "{} projectiles with {shape} on {kind} of {metal_in_words}",
                 plate.projectile.describe()
             ),
         ),
         (
             Box::new(thickness),
-            format!("projectiles with {shape} on {kind} of such a metal"),
+            format!("projectiles with {shape} on {kind} of {metal_in_words}"),
         ),
         (
             Box::new(metal),
-            format!("projectiles with {shape} on plates of such a metal, of any thickness"),
+            format!("projectiles with {shape} on plates of any thickness, of {metal_in_words}"),
         ),
     ];
     levels.into_iter().find_map(|(is_of, kind)| {
@@ -259,6 +285,8 @@ mod tests {
                 target,
                 density,
                 youngs_modulus: 26e6 * density,
+                flow_stress: 1e5 * density,
+                obliquity: 0.0,
             },
             error,
         }
@@ -304,6 +332,19 @@ mod tests {
         let ogive = nose(Nose::Ogive { crh: 3.0 });
         let is_like = |other: Nose| (ogive.is_like(&nose(other)), nose(other).is_like(&ogive));
         assert_eq!(is_like(cone(20.0)), (true, true));
+        // Hard armour says nothing of soft steel, nor a plate at 45 degrees of one at 30.
+        let (soft, hard) = (&all[0].plate, 2.5 * all[0].plate.flow_stress);
+        let harder = Plate {
+            flow_stress: hard,
+            ..soft.clone()
+        };
+        let at = |degrees: f64| Plate {
+            obliquity: degrees.to_radians(),
+            ..soft.clone()
+        };
+        assert!(!soft.is_like(&harder) && !harder.is_like(soft));
+        assert!(at(30.0).is_like(&at(40.0)) && !at(30.0).is_like(&at(45.0)));
+        assert!(!soft.is_like(&at(30.0)));
         for other in [Nose::Hemisphere, cone(70.0), cone(5.0)] {
             assert_eq!(is_like(other), (false, false), "{other:?}");
         }

@@ -309,3 +309,30 @@ fn every_metal_of_the_library_has_a_resistance() {
         );
     }
 }
+
+#[test]
+fn the_empirical_factor_of_concrete_is_warned_of_far_from_its_test() {
+    let warns = |strength: f64, options: &str| {
+        let text = format!(
+            r#"
+            projectile = {{ material = "tool-steel-hrc53", mass = "0.9 kg", diameter = "26.9 mm", impact_velocity = "500 m/s", nose = {{ ogive = {{ crh = 2 }} }} }}
+            target = {{ material = "concrete", thickness = "semi-infinite" }}
+            {options}
+            [materials.concrete]
+            name = "concrete"
+            density = "2370 kg/m3"
+            youngs_modulus = "30 GPa"
+            poissons_ratio = 0.2
+            strength.concrete = {{ compressive_strength = "{strength} MPa" }}
+            "#
+        );
+        let result = computed("forrestal_concrete", &scenario(&text));
+        result
+            .warnings
+            .iter()
+            .any(|w| w.contains("checked on concrete of 35.2 MPa"))
+    };
+    assert!(warns(5.0, "") && warns(150.0, ""));
+    assert!(!warns(14.0, "") && !warns(100.0, ""));
+    assert!(!warns(150.0, "forrestal_concrete = { s = 6.0 }"));
+}

@@ -134,3 +134,48 @@ fn every_material_gives_a_length_or_a_reason() {
         }
     }
 }
+
+/// Every numerical model says alike what a material's record does not cover, and what a wall does not have.
+#[test]
+fn models_agree_on_the_range_of_a_record_and_on_what_a_wall_lacks() {
+    let text = r#"
+        projectile = { material = "metal", length = "20 mm", diameter = "5 mm", impact_velocity = "200 m/s" }
+        target = { rigid_wall = true }
+        particles = { formulation = "particle-stress", spacing = "0.5 mm" }
+        axi = { cells_per_radius = 4 }
+        [materials.metal]
+        name = "metal"
+        density = "8960 kg/m3"
+        youngs_modulus = "124 GPa"
+        poissons_ratio = 0.34
+        specific_heat = "380 J/(kg K)"
+        validity = { plastic_strain_max = 0.05, strain_rate_max = "10 1/s", temperature_max = "300 K" }
+        strength.johnson_cook = { a = "200 MPa", b = "100 MPa", n = 0.5, c = 0.0, m = 1.0 }
+    "#;
+    for name in ["chain", "fdm", "axi", "particles"] {
+        let model = model::model(name).unwrap();
+        let result = model::run(model, &scenario(text), &mut Control::recording()).unwrap();
+        let says = |words: &str| result.warnings.iter().any(|w| w.contains(words));
+        assert!(says("the projectile reached a plastic strain of"), "{name}");
+        assert!(
+            says("K, beyond 300 K to which its law was fitted"),
+            "{name}: {:#?}",
+            result.warnings
+        );
+        assert!(
+            says("has no melting temperature: heat does not reduce"),
+            "{name}"
+        );
+        let keeps_rates = matches!(name, "chain" | "fdm");
+        assert_eq!(says("reached a strain rate of"), keeps_rates, "{name}");
+        for sample in &result.history.unwrap().samples {
+            for number in [
+                sample.interface_velocity,
+                sample.back_velocity,
+                sample.back_force,
+            ] {
+                assert!(number.is_nan(), "{name}: {sample:?}");
+            }
+        }
+    }
+}

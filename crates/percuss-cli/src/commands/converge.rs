@@ -10,7 +10,7 @@ use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Error, Scenario, case,
     converge::{self, ConvergenceStatus, MeshStudy},
-    model::{self, Control, Estimate, MODELS, Model},
+    model::{self, Control, DEFAULT_MODEL, Estimate, MODELS, Model},
     units::significant,
 };
 use percuss_report::{
@@ -66,7 +66,7 @@ pub struct Converge {
     #[arg(value_name = "CASE.toml")]
     case: PathBuf,
     /// Model to compute with; `percuss models` describes them
-    #[arg(long, value_name = "NAME", default_value = "chain")]
+    #[arg(long, value_name = "NAME", default_value = DEFAULT_MODEL)]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: String,
     /// Number of meshes; the work grows fourfold with each

@@ -61,14 +61,14 @@ pub static SAMPLE_COLUMNS: &[HistoryColumn<Sample>] = columns! { Sample:
     "step" NONE Whole step, "Time step number.";
     "tip_velocity" M_S Number tip_velocity, "Velocity of the projectile's front end.";
     "tail_velocity" M_S Number tail_velocity, "Velocity of the projectile's rear end.";
-    "interface_velocity" M_S Number interface_velocity, "Velocity of the crater floor.";
+    "interface_velocity" M_S Number interface_velocity, "Velocity of the crater floor; not a number on a rigid wall.";
     "back_velocity" M_S Number back_velocity, "Velocity of the target's rear face; not a number where there is none.";
     "mean_velocity" M_S Number mean_velocity, "Mean velocity of the projectile.";
     "tip_position" MM Number tip_position, "Position of the projectile's front end below the original face.";
     "depth" MM Number depth, "Position of the crater floor below the original face.";
     "projectile_length" MM Number projectile_length, "Current length of the projectile.";
     "contact_force" KN Number contact_force, "Force between projectile and target.";
-    "back_force" KN Number back_force, "Force on the rear face.";
+    "back_force" KN Number back_force, "Force on the rear face; not a number where there is none.";
     "crack_length" MM Number crack_length, "Length of a straight crack that takes as many bonds as are broken; 0 from a model without cracks.";
     "crack_reach" MM Number crack_reach, "Largest distance of a broken bond from the tip of its notch, or from the point of impact; 0 from a model without cracks.";
     "energy_initial" J Number energy.initial, "Kinetic energy at the start.";

@@ -10,6 +10,7 @@ mod flow_curve;
 mod group;
 mod library;
 mod plastic_return;
+mod reached;
 mod references;
 mod sanity;
 mod search;
@@ -40,6 +41,7 @@ pub use flow_curve::IsothermalFlowCurve;
 pub use group::MaterialGroup;
 pub use library::{Library, MaterialEntry};
 pub use plastic_return::plastic_increments;
+pub use reached::Reached;
 pub use references::{Reference, references};
 pub use search::Filter;
 pub use state_equation::{StateEquation, impedance_match};
@@ -178,7 +180,12 @@ impl Material {
     pub fn class(&self) -> MaterialClass {
         match self.strength {
             Strength::Concrete(_) => MaterialClass::Concrete,
-            _ => MaterialClass::Metal,
+            Strength::Elastic(_)
+            | Strength::PerfectlyPlastic(_)
+            | Strength::PowerLaw(_)
+            | Strength::JohnsonCook(_)
+            | Strength::SteinbergGuinan(_)
+            | Strength::Own(_) => MaterialClass::Metal,
         }
     }
 
@@ -299,7 +306,7 @@ pub struct Validity {
     /// Largest plastic strain.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plastic_strain_max: Option<f64>,
-    /// Largest strain rate [1/s].
+    /// Largest strain rate [1/s], which `chain` and `fdm` compare; two-dimensional models do not keep it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub strain_rate_max: Option<StrainRate>,
     /// Largest temperature [K].

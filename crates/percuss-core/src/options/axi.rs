@@ -230,7 +230,7 @@ impl AxiOptions {
         {
             check.fail(
                 key,
-                format!("a rigid wall has no `{key}`"),
+                format!("a rigid wall or a constant pressure has no `{key}`"),
                 "remove the key",
             );
         }

@@ -8,7 +8,7 @@ use super::{
         ArtificialViscosity, ErosionCriterion, Kinematics, Scheme, TargetResistanceModel,
     },
     number_or_name::{ConstraintFactor, ErosionStrain, NumberOrName},
-    published_options::PublishedOptions,
+    published_options::{ContactSpring, Interface, PublishedBorderShear, PublishedOptions},
     shear_band::{BorderShearLaw, ShearBandOptions},
 };
 use crate::{
@@ -76,6 +76,8 @@ pub struct ChainOptions {
     /// Readings of the paper; scheme `published` only.
     pub published: Option<PublishedOptions>,
 }
+
+const OF_TWO: &str = "remove one of the two keys";
 
 impl ChainOptions {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
@@ -175,7 +177,7 @@ impl ChainOptions {
                     check.fail(
                         key,
                         format!("`{key}` has no effect with the erosion criterion `tate`"),
-                        "remove one of the two keys",
+                        OF_TWO,
                     );
                 }
             }
@@ -184,7 +186,7 @@ impl ChainOptions {
             check.fail(
                 "heat_fraction",
                 "`heat_fraction` has no effect without `adiabatic_heating`",
-                "remove one of the two keys",
+                OF_TWO,
             );
         }
     }
@@ -237,20 +239,47 @@ impl ChainOptions {
 
     /// Reports keys that the selected scheme would ignore.
     fn check_scheme(&self, check: &mut Check<'_>) {
+        // Every option by its name: the compiler asks for a new one here.
+        let Self {
+            scheme: _,
+            projectile_elements: _,
+            target_elements: _,
+            target_resistance,
+            constraint_factor: _,
+            border_shear,
+            border_shear_law: _,
+            shear_band: _,
+            dishing: _,
+            kinematics,
+            courant,
+            erosion_strain,
+            erosion_criterion,
+            artificial_viscosity,
+            damping_ratio,
+            local_damping,
+            failure,
+            fracture_energy,
+            rate_effects,
+            adiabatic_heating,
+            heat_fraction,
+            end_time: _,
+            max_steps: _,
+            published,
+        } = self;
         let conservative_only = [
-            ("kinematics", self.kinematics.is_some()),
-            ("courant", self.courant.is_some()),
-            ("erosion_strain", self.erosion_strain.is_some()),
-            ("erosion_criterion", self.erosion_criterion.is_some()),
-            ("target_resistance", self.target_resistance.is_some()),
-            ("artificial_viscosity", self.artificial_viscosity.is_some()),
-            ("damping_ratio", self.damping_ratio.is_some()),
-            ("local_damping", self.local_damping.is_some()),
-            ("failure", self.failure.is_some()),
-            ("fracture_energy", self.fracture_energy.is_some()),
-            ("rate_effects", self.rate_effects.is_some()),
-            ("adiabatic_heating", self.adiabatic_heating.is_some()),
-            ("heat_fraction", self.heat_fraction.is_some()),
+            ("kinematics", kinematics.is_some()),
+            ("courant", courant.is_some()),
+            ("erosion_strain", erosion_strain.is_some()),
+            ("erosion_criterion", erosion_criterion.is_some()),
+            ("target_resistance", target_resistance.is_some()),
+            ("artificial_viscosity", artificial_viscosity.is_some()),
+            ("damping_ratio", damping_ratio.is_some()),
+            ("local_damping", local_damping.is_some()),
+            ("failure", failure.is_some()),
+            ("fracture_energy", fracture_energy.is_some()),
+            ("rate_effects", rate_effects.is_some()),
+            ("adiabatic_heating", adiabatic_heating.is_some()),
+            ("heat_fraction", heat_fraction.is_some()),
         ];
         match self.scheme {
             Scheme::Published => {
@@ -261,8 +290,25 @@ impl ChainOptions {
                         "remove the key, or use scheme = \"conservative\"",
                     );
                 }
+                let readings = published.unwrap_or_default();
+                if border_shear.is_some() && readings.border_shear == PublishedBorderShear::None {
+                    check.fail(
+                        "border_shear",
+                        "`border_shear` has no effect with `published.border_shear = \"none\"`",
+                        OF_TWO,
+                    );
+                }
+                if readings.contact_spring != ContactSpring::default()
+                    && readings.interface != Interface::Chain
+                {
+                    check.fail(
+                        "published.contact_spring",
+                        "`contact_spring` has no effect where rod and target are joined",
+                        OF_TWO,
+                    );
+                }
             }
-            Scheme::Conservative if self.published.is_some() => check.fail(
+            Scheme::Conservative if published.is_some() => check.fail(
                 "published",
                 "scheme `conservative` does not use the readings of the paper",
                 "remove the table, or use scheme = \"published\"",

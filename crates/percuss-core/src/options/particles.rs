@@ -202,7 +202,7 @@ const NOTCH: Limits = Limits {
 };
 /// Most notches of a case.
 const MOST_NOTCHES: usize = 64;
-/// Coefficients of friction.
+/// Coefficients of friction: pieces and balls are rougher than the interfaces of `limits::FRICTION`.
 const FRICTION: Limits = Limits { min: 0.0, max: 2.0 };
 
 defaults! { ParticlesOptions, particles_in_schema {
@@ -290,7 +290,11 @@ impl ParticlesOptions {
             check.fail("max_steps", "0 steps is out of range", "allowed: 1 or more");
         }
         if self.width.is_some() && !target.is_solid() {
-            check.fail("width", "a rigid wall has no `width`", "remove the key");
+            check.fail(
+                "width",
+                "a rigid wall or a constant pressure has no `width`",
+                "remove the key",
+            );
         }
         self.check_outline(check, target);
         self.check_notches(check);
@@ -399,7 +403,8 @@ impl ParticlesOptions {
             return;
         }
         if !target.is_solid() {
-            let message = "a rigid wall has no `outline`: it is that of a target";
+            let message =
+                "a rigid wall or a constant pressure has no `outline`: it is that of a target";
             check.fail("outline", message, "remove the key");
         } else if self.width.is_some() {
             let message = "a disc has no `width`: its diameter is the thickness of the target";

@@ -15,9 +15,10 @@ use super::{
 use crate::{
     Error, Scenario,
     error::NumericalError,
-    history::Recorder,
+    history::{Recorder, Sample},
     ledger::{EnergyLedger, MomentumLedger},
     outcome::{Numerics, RunResult, Termination},
+    scenario::TargetBody,
     units::Time,
 };
 
@@ -298,7 +299,8 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
         }
         result.history = recorder.map(|recorder| {
             let gauges = solver.gauges(&self.gauges);
-            recorder.finish(solver.sample(monitor), gauges, solver.profile())
+            let last = sample(solver, monitor, self.scenario);
+            recorder.finish(last, gauges, solver.profile())
         });
         solver.complete(&mut result, monitor);
         Ok(result)
@@ -311,7 +313,8 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
         let Clock { step, time, .. } = self.solver.clock();
         if recorder.wants_sample(step, time) {
             let gauges = self.solver.gauges(&self.gauges);
-            recorder.sample(self.solver.sample(&self.monitor), gauges);
+            let now = sample(&self.solver, &self.monitor, self.scenario);
+            recorder.sample(now, gauges);
         }
         if recorder.wants_profile(step) {
             recorder.profile(self.solver.profile());
@@ -380,4 +383,17 @@ impl Clock {
             remedy,
         }
     }
+}
+
+/// State now; a wall and a constant pressure have no rear face, and a wall no face that moves.
+fn sample<'a, S: Solver<'a>>(solver: &S, monitor: &RunMonitor, scenario: &Scenario) -> Sample {
+    let mut sample = solver.sample(monitor);
+    if scenario.layers().is_empty() {
+        sample.back_velocity = f64::NAN;
+        sample.back_force = f64::NAN;
+    }
+    if scenario.target == TargetBody::RigidWall {
+        sample.interface_velocity = f64::NAN;
+    }
+    sample
 }

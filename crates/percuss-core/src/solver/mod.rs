@@ -80,6 +80,11 @@ pub trait Model: Sync {
         false
     }
 
+    /// Whether it reads the table of options of the model with this name.
+    fn reads_options_of(&self, model: &str) -> bool {
+        model == self.name()
+    }
+
     /// Why the model does not apply to a case inside its validity domain, if it does not: an option or a number is missing.
     fn not_applicable(&self, _: &Scenario) -> Option<Refusal> {
         None

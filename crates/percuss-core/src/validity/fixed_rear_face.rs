@@ -2,7 +2,7 @@
 
 use crate::{
     problem::RearFaceCondition,
-    regime::THICK,
+    regime::{THICK, is_thinner},
     scenario::{Scenario, TargetBody},
 };
 
@@ -19,8 +19,7 @@ pub fn fixed_rear_face_warning(scenario: &Scenario) -> Option<String> {
     else {
         return None;
     };
-    let ratio = scenario.target_thickness()? / scenario.projectile.diameter;
-    (ratio < THICK).then(|| {
+    is_thinner(scenario.target_thickness()?, THICK, scenario).then(|| {
         "perforation is impossible: the rear face is fixed (the default). Set \
          \"free\" for a plate that the projectile may perforate"
             .to_owned()

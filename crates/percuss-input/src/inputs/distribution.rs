@@ -110,7 +110,8 @@ impl Distribution {
                 cut: Cut::NONE,
             } => median * libm::exp(deviation * z),
             // The probability of a high score rounds to 1, which has no finite quantile.
-            _ => self.quantile(probability(z).clamp(f64::MIN_POSITIVE, 1.0 - 0.5 * f64::EPSILON)),
+            _ => self
+                .quantile(normal_probability(z).clamp(f64::MIN_POSITIVE, 1.0 - 0.5 * f64::EPSILON)),
         }
     }
 
@@ -128,7 +129,7 @@ impl Distribution {
 
     /// Part of the distribution that its cut leaves.
     pub fn part_left(&self) -> f64 {
-        let between = |low: f64, high: f64| probability(high) - probability(low);
+        let between = |low: f64, high: f64| normal_probability(high) - normal_probability(low);
         match *self {
             Self::Normal {
                 mean,
@@ -259,12 +260,12 @@ impl fmt::Display for Cut {
 
 /// Quantile of the standard normal distribution between two scores.
 fn truncated(u: f64, low: f64, high: f64) -> f64 {
-    let (below, above) = (probability(low), probability(high));
+    let (below, above) = (normal_probability(low), normal_probability(high));
     score(below + u * (above - below))
 }
 
 /// Standard normal distribution function.
-fn probability(z: f64) -> f64 {
+pub fn normal_probability(z: f64) -> f64 {
     0.5 * libm::erfc(-z * FRAC_1_SQRT_2)
 }
 
@@ -284,7 +285,7 @@ pub fn score(u: f64) -> f64 {
     let bottom = 1.0 + t * (1.432788 + t * (0.189269 + t * 0.001308));
     let mut z = top / bottom - t;
     for _ in 0..3 {
-        let step = (probability(z) - tail) * (2.0 * PI).sqrt() * libm::exp(0.5 * z * z);
+        let step = (normal_probability(z) - tail) * (2.0 * PI).sqrt() * libm::exp(0.5 * z * z);
         z -= step / (1.0 + 0.5 * z * step);
     }
     if u < 0.5 { z } else { -z }

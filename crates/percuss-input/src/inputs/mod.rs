@@ -16,7 +16,7 @@ pub use axis::Axis;
 pub use axis::{Values, values};
 pub use copula::Copula;
 pub use correlation::Correlation;
-pub use distribution::{Distribution, score};
+pub use distribution::{Distribution, normal_probability, score};
 pub use file::{Design, Lognormal, Normal, Parameter, Steps, Triangular, Uniform};
 pub use list_value::ListValue;
 pub use quantity_literal::QuantityLiteral;

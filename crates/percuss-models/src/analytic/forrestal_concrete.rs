@@ -21,6 +21,9 @@ pub struct ForrestalConcrete;
 /// Diameter of the projectile of the published test that the factor S is checked on [m], and how much larger one may be without a warning.
 const CHECKED_DIAMETER: f64 = 0.0269;
 const LARGER: f64 = 1.2;
+/// Compressive strength of the concrete of that test [Pa], and by which factor another one may differ without a warning.
+const CHECKED_STRENGTH: f64 = 35.2e6;
+const STRONGER: f64 = 3.0;
 
 /// A rigid projectile and the concrete that resists it.
 #[derive(Debug, Clone, Copy)]
@@ -30,6 +33,8 @@ struct TwoPhases {
     /// Nose factor N.
     nose: f64,
     density: f64,
+    /// Unconfined compressive strength f_c [Pa].
+    compressive: f64,
     /// S f_c [Pa].
     strength: f64,
     /// Depth k of the crater in diameters.
@@ -82,6 +87,7 @@ impl ForrestalConcrete {
             diameter: case.rod.diameter,
             nose: nose_factor(case.rod.nose),
             density: case.target.density.si(),
+            compressive,
             strength: compressive * options.s.unwrap_or_else(|| strength_factor(compressive)),
             crater: options.crater_depth_to_diameter(),
         })
@@ -171,6 +177,14 @@ impl Model for ForrestalConcrete {
                 significant(phases.diameter * 1e3, 3)
             ));
         }
+        let ratio = phases.compressive / CHECKED_STRENGTH;
+        if !has_own_factor && ratio.max(1.0 / ratio) > STRONGER {
+            result.warnings.push(format!(
+                "the factor S is checked on concrete of {} MPa, and this one has {} MPa: give `forrestal_concrete.s` from tests of such a concrete",
+                significant(CHECKED_STRENGTH * 1e-6, 3),
+                significant(phases.compressive * 1e-6, 3)
+            ));
+        }
         if square <= 0.0 && scenario.impact_velocity > 0.0 {
             result.warnings.push(
                 "the projectile stops in the crater, where the depth rests on a force that grows linearly with depth".to_owned(),
@@ -191,6 +205,7 @@ mod tests {
             diameter: 0.0269,
             nose: 15.0 / 96.0,
             density: 2370.0,
+            compressive: 35.2e6,
             strength: 12.0 * 35.2e6,
             crater: 2.0,
         }

@@ -6,9 +6,11 @@ use super::{
 };
 use crate::{
     Scenario,
-    material::Material,
+    material::{Material, Reached},
     outcome::{Outcome, RunResult},
     problem::{Nose, RearFaceCondition},
+    regime::is_thinner,
+    solver::Particle,
     validity::THROUGH_FIXED_FACE,
 };
 
@@ -24,7 +26,7 @@ const FEWEST_CELLS: f64 = 2.0;
 /// Whether a target is a plate to its projectile.
 fn is_plate(scenario: &Scenario) -> bool {
     let thickness = scenario.target_thickness();
-    thickness.is_some_and(|thickness| thickness < PLATE * scenario.projectile.diameter)
+    thickness.is_some_and(|thickness| is_thinner(thickness, PLATE, scenario))
 }
 
 /// Ids of the case's materials of a kind, each once.
@@ -152,6 +154,20 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
                 lacks.join(", ")
             ));
         }
+    }
+    let heated = options.adiabatic_heating();
+    for ((what, material), body) in run.scenario.bodies().into_iter().zip(&run.grid.bodies) {
+        let most = |value: fn(&Particle) -> f64| {
+            body.particles()
+                .map(|particle| value(&particle))
+                .fold(0.0, f64::max)
+        };
+        let reached = Reached {
+            plastic_strain: most(|particle| particle.plastic_strain),
+            strain_rate: None,
+            temperature: most(|particle| particle.temperature),
+        };
+        warnings.extend(reached.warnings(&what, material, heated));
     }
     if run.grid.accumulated.lost != [0, 0] {
         warnings.push(format!(

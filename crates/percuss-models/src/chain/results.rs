@@ -1,12 +1,9 @@
 //! From the state at the end of a run to its result.
 
-use super::{
-    part::Role,
-    state::State,
-    warnings::{Reached, warnings},
-};
+use super::{part::Role, state::State, warnings::warnings};
 use crate::{
     fragments::Fragment,
+    material::Reached,
     outcome::{Detail, RunResult},
     scenario::{Scenario, TargetBody},
     solver::{interface::Extremes, monitor::RunMonitor},
@@ -122,7 +119,7 @@ impl Results<'_> {
             };
             Reached {
                 plastic_strain: most(|element| element.plastic.strain),
-                strain_rate: most(|element| element.plastic.largest_rate),
+                strain_rate: Some(most(|element| element.plastic.largest_rate)),
                 temperature: most(|element| element.plastic.temperature),
             }
         });

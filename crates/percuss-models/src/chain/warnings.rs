@@ -4,13 +4,13 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::plug;
 use crate::{
-    material::{Material, Strength, cavity_expansion_pressure_at},
+    material::{Material, Reached, cavity_expansion_pressure_at},
     options::{BorderShearLaw, ErosionCriterion, TargetResistanceModel},
     outcome::{Outcome, RunResult},
     problem::RearFaceCondition,
     regime::{STRENGTH_STRAIN, THIN, is_thinner},
     scenario::{Plate, Scenario, TargetBody, modelled_thickness},
-    units::{StrainRate, Temperature, Velocity, significant},
+    units::{Velocity, significant},
     validity::{fixed_rear_face_warning, pushed_column_warning},
 };
 
@@ -54,20 +54,8 @@ pub(super) fn warnings(
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
     warn_of_failure(scenario, result, &mut warnings);
     let heated = scenario.options.chain.adiabatic_heating();
-    let mut warn = |what: &str, material: &Material, reached: Option<&Reached>| {
-        if let Some(reached) = reached {
-            warn_of_material(what, material, reached, heated, &mut warnings);
-        }
-    };
-    warn("projectile", &scenario.projectile.material, reached.first());
-    if let TargetBody::Layers { layers, .. } = &scenario.target {
-        for (i, plate) in layers.iter().enumerate() {
-            let name = match layers.len() {
-                1 => "target".to_owned(),
-                _ => format!("layer {}", i + 1),
-            };
-            warn(&name, &plate.material, reached.get(i + 1));
-        }
+    for ((what, material), reached) in scenario.bodies().into_iter().zip(reached) {
+        warnings.extend(reached.warnings(&what, material, heated));
     }
     warnings
 }
@@ -119,7 +107,7 @@ pub(super) fn warnings_of_cavity(
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
     let heated = scenario.options.chain.adiabatic_heating();
     let material = &scenario.projectile.material;
-    warn_of_material("projectile", material, reached, heated, &mut warnings);
+    warnings.extend(reached.warnings("projectile", material, heated));
     warnings
 }
 
@@ -140,7 +128,7 @@ fn warning_of_rear_face(scenario: &Scenario, depth: f64) -> Option<String> {
              `target.back_face = \"free\"`"
                 .to_owned(),
         ),
-        RearFaceCondition::Fixed if thickness < FREE_OF_DISHING * scenario.projectile.diameter => {
+        RearFaceCondition::Fixed if is_thinner(thickness, FREE_OF_DISHING, scenario) => {
             fixed_rear_face_warning(scenario)
         }
         RearFaceCondition::Fixed | RearFaceCondition::NonReflecting if depth > FREE_OF_BACK_FACE * thickness => Some(
@@ -330,77 +318,5 @@ fn warn_of_failure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
              give `chain.fracture_energy`"
                 .to_owned(),
         );
-    }
-}
-
-/// Extremes of a part.
-pub(super) struct Reached {
-    pub(super) plastic_strain: f64,
-    /// [1/s].
-    pub(super) strain_rate: f64,
-    /// [K].
-    pub(super) temperature: f64,
-}
-
-/// Section of the way from room temperature to melting that may be left: the strength goes with it, and with the strength the heat,
-/// so that nothing quite gets there.
-const NEARLY_MOLTEN: f64 = 0.01;
-
-fn warn_of_material(
-    what: &str,
-    material: &Material,
-    reached: &Reached,
-    heated: bool,
-    warnings: &mut Vec<String>,
-) {
-    let flowed = reached.plastic_strain > 0.0;
-    if let Some(melting) = material.melting_temperature
-        && reached.temperature
-            >= melting.si() - NEARLY_MOLTEN * (melting.si() - material.room_temperature.si())
-    {
-        warnings.push(format!(
-            "the {what} reached its melting point ({melting}): there the law has no strength"
-        ));
-    }
-    if flowed && heated && material.strength.law().depends_on_temperature() {
-        let johnson_cook = matches!(&material.strength, Strength::JohnsonCook(_));
-        if material.specific_heat.is_none() {
-            let missing = match johnson_cook && material.melting_temperature.is_none() {
-                true => "specific heat and no melting temperature",
-                false => "specific heat",
-            };
-            warnings.push(format!(
-                "the {what}'s material has no {missing}: it does not warm up, so its strength is not reduced"
-            ));
-        } else if johnson_cook && material.melting_temperature.is_none() {
-            warnings.push(format!(
-                "the {what}'s material has no melting temperature: heat does not reduce its strength"
-            ));
-        }
-    }
-    let validity = &material.validity;
-    if let Some(most) = validity.plastic_strain_max
-        && reached.plastic_strain > most
-    {
-        warnings.push(format!(
-            "the {what} reached a plastic strain of {}, beyond {most} to which its law was fitted",
-            significant(reached.plastic_strain, 3)
-        ));
-    }
-    if let Some(most) = validity.strain_rate_max
-        && reached.strain_rate > most.si()
-    {
-        warnings.push(format!(
-            "the {what} reached a strain rate of {}, beyond {most} to which its law was fitted",
-            StrainRate::new(reached.strain_rate)
-        ));
-    }
-    if let Some(most) = validity.temperature_max
-        && reached.temperature > most.si()
-    {
-        warnings.push(format!(
-            "the {what} reached {}, beyond {most} to which its law was fitted",
-            Temperature::new(reached.temperature)
-        ));
     }
 }

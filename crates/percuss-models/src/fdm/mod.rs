@@ -50,6 +50,11 @@ impl Model for Fdm {
         Cow::Borrowed("finite differences")
     }
 
+    // Erosion and heating are those of the column of discrete elements.
+    fn reads_options_of(&self, model: &str) -> bool {
+        matches!(model, "fdm" | "chain")
+    }
+
     fn summary(&self) -> &'static str {
         "1-D finite differences: a rod on a column of target, or a planar impact with shocks and spall"
     }

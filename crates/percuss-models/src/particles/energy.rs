@@ -6,7 +6,8 @@ use super::{
     body::Body,
     bonded::Load,
     row::{Damage, States},
-    step::{LEAST_ROWS, Sweep},
+    step::Sweep,
+    tasks::LEAST_ROWS,
 };
 
 /// Energies [J per m].

@@ -11,6 +11,7 @@ mod energy;
 mod fields;
 mod flight;
 mod fracture;
+mod frequency;
 mod lammps;
 mod lattice;
 mod onset;
@@ -29,6 +30,7 @@ mod slot;
 mod step;
 mod stress;
 mod survey;
+mod tasks;
 mod tension;
 #[cfg(test)]
 mod tests;

@@ -8,6 +8,7 @@ use super::{
 };
 use crate::{
     history::{ElementState, Sample},
+    material::Reached,
     outcome::{Detail, Outcome, RunResult, Termination},
     problem::RearFaceCondition,
     solver::{interface::Solver, monitor::RunMonitor},
@@ -79,14 +80,13 @@ pub(super) fn sample<B: Bonded<D>, const D: usize>(
     sample.energy = run.energy();
     sample.momentum = run.momentum();
     sample.contact_force = run.contact_force();
+    sample.back_force = state.support_force;
     sample.crack_length = if D == 2 { run.front.size } else { f64::NAN };
     sample.crack_reach = run.front.reach;
     match run.rigid {
         Rigid::Wall => {
             sample.tip_velocity = back_velocity;
             sample.tail_velocity = front_velocity;
-            sample.interface_velocity = f64::NAN;
-            sample.back_velocity = f64::NAN;
             sample.tip_position = back;
             sample.projectile_length = back - front;
         }
@@ -229,6 +229,21 @@ fn warnings<B: Bonded<D>, const D: usize>(
             } = run.state;
             warnings.extend(run.body.limits_in_words(largest_stretch, largest_tension));
         }
+    }
+    let flow = run.body.flow();
+    let reached = Reached {
+        plastic_strain: flow.plastic_strain,
+        strain_rate: None,
+        temperature: flow.temperature,
+    };
+    let heated = run.scenario.options.particles.adiabatic_heating();
+    let mut bodies = run.scenario.bodies().into_iter();
+    let of_particles = match run.rigid {
+        Rigid::Wall => bodies.next(),
+        Rigid::Projectile(_) => bodies.nth(1),
+    };
+    if let Some((what, material)) = of_particles {
+        warnings.extend(reached.warnings(&what, material, heated));
     }
     let idle = run.body.idle(&run.notches);
     if !idle.is_empty() {

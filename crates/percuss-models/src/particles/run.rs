@@ -72,6 +72,8 @@ pub(super) struct State {
     pub(super) flight: Flight,
     /// Impulse on what holds the rear face, or on the wall [N s per m].
     support: f64,
+    /// Force on it in the last step [N per m].
+    pub(super) support_force: f64,
     /// Time of the last contact [s]; negative before the first.
     last_contact: f64,
     /// Largest stretch of a bond so far.
@@ -233,6 +235,7 @@ impl<'a, B: Bonded<D>, const D: usize> Solver<'a> for Impact<'a, B, D> {
                 step: 0,
                 time: 0.0,
                 support: 0.0,
+                support_force: 0.0,
                 largest_stretch: 0.0,
                 largest_tension: 0.0,
                 step_changes: 0.0,
@@ -267,13 +270,15 @@ impl<'a, B: Bonded<D>, const D: usize> Solver<'a> for Impact<'a, B, D> {
 
     fn advance(&mut self) -> Result<(), NumericalError> {
         let step = self.time_step;
-        self.state.support += self.body.advance(step, &self.loads);
+        let mut impulse = self.body.advance(step, &self.loads);
         match self.rigid {
-            Rigid::Wall => self.state.support -= step * self.contact.force[1],
+            Rigid::Wall => impulse -= step * self.contact.force[1],
             Rigid::Projectile(_) => {
                 (self.state.flight).advance(step, &self.inertia, &self.contact);
             }
         }
+        self.state.support += impulse;
+        self.state.support_force = impulse / step;
         self.state.step += 1;
         self.state.time += step;
         let is_due = self.state.step.is_multiple_of(INTERVAL);

@@ -8,18 +8,17 @@ use super::{
     body::Body,
     bonded::{Bonded, Load},
     bonds::{BondDamage, BondForce, Forces, Pair, Pose, Rest, RowForces, Springs, bond, offset},
+    frequency::{Oscillator, largest_frequency},
     lattice::DIRECTIONS,
     row::{Halo, RowMake, RowMotion, RowState, States},
+    tasks::rows_at_once,
 };
 use crate::{Error, random::unit, solver::Control};
 
-/// Rows that one task takes at least, and particles below which one task takes all.
-pub(super) const LEAST_ROWS: usize = 8;
+/// Particles below which one task takes all.
 const SMALL: usize = 4096;
 
-/// Rounds of the search for the largest frequency, what they may leave, and the random numbers that it starts from.
-const FREQUENCY_ROUNDS: usize = 30;
-const FREQUENCY_MARGIN: f64 = 1.05;
+/// Random numbers that the search for the largest frequency starts from.
 const FREQUENCY_STREAM: u64 = 0xf1e1d;
 
 impl Forces {
@@ -272,17 +271,10 @@ impl Body {
     }
 
     fn rows_at_once(&self) -> usize {
-        let rows = self.rows.len();
-        match rows * self.stride {
-            0..SMALL => rows,
-            _ => rows
-                .div_ceil(4 * rayon::current_num_threads())
-                .max(LEAST_ROWS),
-        }
+        rows_at_once(self.rows.len(), self.stride, SMALL)
     }
 
-    /// Largest angular frequency [rad/s], by power iteration on the accelerations of small displacements. The start is random, so that
-    /// every motion is in it, and the result is raised by what thirty rounds may leave.
+    /// Largest angular frequency [rad/s] of small displacements.
     ///
     /// # Errors
     /// [`Error::Cancelled`].
@@ -314,40 +306,7 @@ impl Body {
                 motion.spin[place] = draw(2) / self.lattice.spacing;
             }
         }
-        let mut square = 0.0;
-        for _ in 0..FREQUENCY_ROUNDS {
-            control.ask()?;
-            let before = self.motion_norm();
-            self.displace_by_motion(size / before);
-            self.advance_rows(1.0, &[]);
-            square = self.motion_norm() / size;
-        }
-        Ok(FREQUENCY_MARGIN * square.sqrt())
-    }
-
-    /// Root of twice the kinetic energy over that of a velocity of 1 m/s.
-    fn motion_norm(&self) -> f64 {
-        let mut sum = 0.0;
-        for (make, motion) in self.rows.iter().zip(&self.motion) {
-            for place in (0..self.stride).filter(|&place| make.inverse_mass[place] > 0.0) {
-                let speeds = motion.x[place].powi(2) + motion.z[place].powi(2);
-                sum += make.mass[place] * speeds
-                    + motion.spin[place].powi(2) / make.inverse_inertia[place];
-            }
-        }
-        (sum / self.mass()).sqrt()
-    }
-
-    /// Makes the velocities, times a factor, displacements of a body at rest.
-    fn displace_by_motion(&mut self, factor: f64) {
-        for (state, motion) in self.state.iter_mut().zip(&mut self.motion) {
-            for place in 0..self.stride {
-                state.x[place] = factor * std::mem::take(&mut motion.x[place]);
-                state.z[place] = factor * std::mem::take(&mut motion.z[place]);
-                let angle = factor * std::mem::take(&mut motion.spin[place]);
-                (state.cosine[place], state.sine[place]) = (1.0, angle);
-            }
-        }
+        largest_frequency(self, size, control)
     }
 
     /// Force and energy of one bond.
@@ -391,6 +350,36 @@ impl Body {
     pub(super) fn end_of(&self, row: usize, place: usize, kind: usize) -> (usize, usize) {
         let other = place.saturating_add_signed(offset(kind, row % 2));
         (row + usize::from(kind > 0), other)
+    }
+}
+
+/// The speed counts rotation by its kinetic energy.
+impl Oscillator for Body {
+    fn speed(&self) -> f64 {
+        let mut sum = 0.0;
+        for (make, motion) in self.rows.iter().zip(&self.motion) {
+            for place in (0..self.stride).filter(|&place| make.inverse_mass[place] > 0.0) {
+                let speeds = motion.x[place].powi(2) + motion.z[place].powi(2);
+                sum += make.mass[place] * speeds
+                    + motion.spin[place].powi(2) / make.inverse_inertia[place];
+            }
+        }
+        (sum / self.mass()).sqrt()
+    }
+
+    fn displace_by_motion(&mut self, factor: f64) {
+        for (state, motion) in self.state.iter_mut().zip(&mut self.motion) {
+            for place in 0..self.stride {
+                state.x[place] = factor * std::mem::take(&mut motion.x[place]);
+                state.z[place] = factor * std::mem::take(&mut motion.z[place]);
+                let angle = factor * std::mem::take(&mut motion.spin[place]);
+                (state.cosine[place], state.sine[place]) = (1.0, angle);
+            }
+        }
+    }
+
+    fn accelerate(&mut self) {
+        self.advance_rows(1.0, &[]);
     }
 }
 

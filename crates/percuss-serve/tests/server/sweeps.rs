@@ -208,8 +208,13 @@ fn a_sweep_has_bounds() {
     let done = &lines[lines.len() - 1]["done"];
     assert_eq!(done["rows"][1]["reason"], "the mesh has 5010 elements");
     // A formula has no mesh.
-    let formula = elements.replace("'chain'\ndesign", "'crater_energy'\ndesign");
-    let lines = served.post("/api/study/sweep", &asked(&formula)).lines();
+    let formula = elements
+        .replace("'chain'\ndesign", "'crater_energy'\ndesign")
+        .replace("chain.target_elements", "projectile.impact_velocity")
+        .replace("[20, 5000]", "['200 m/s', '300 m/s']");
+    let fine = PAPER.replace("= 80", "= 5000");
+    let asked = json!({ "name": "shot", "case": fine, "sweep": formula });
+    let lines = served.post("/api/study/sweep", &asked).lines();
     let done = &lines[lines.len() - 1]["done"];
     assert_eq!(done["outcomes"], json!({ "at rest": 2 }));
 }

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::{Counter, Observation, Problem, sampler::Sample};
 use crate::{
+    inputs::normal_probability,
     outcome::BandQuantity,
     statistics::{quantile, sorted},
 };
@@ -167,9 +168,7 @@ pub(super) fn predictions(
 /// Quantile of normal distributions, given as means and standard deviations, that are equally likely.
 pub(super) fn mixture_quantile(parts: &[(f64, f64)], probability: f64) -> f64 {
     let below = |y: f64| {
-        let part = |(mean, deviation): &(f64, f64)| {
-            0.5 * libm::erfc((mean - y) / deviation * std::f64::consts::FRAC_1_SQRT_2)
-        };
+        let part = |(mean, deviation): &(f64, f64)| normal_probability((y - mean) / deviation);
         parts.iter().map(part).sum::<f64>() / parts.len() as f64
     };
     let ends = |sign: f64| {

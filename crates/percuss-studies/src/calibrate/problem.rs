@@ -20,7 +20,7 @@ use super::{
 use crate::{
     Error, Scenario, cost,
     measured_curves::computed,
-    model::{self, Control, Model},
+    model::{self, Control, Model, why_unread},
     outcome::{BandQuantity, Outcome, RunResult},
 };
 
@@ -106,6 +106,10 @@ impl Problem {
                 );
                 let help = "name a material of the projectile or the target";
                 return Err(parameter.error(&message, help));
+            }
+            if let Some(why) = why_unread(model, parameter.key()) {
+                let help = "fit a number that the model reads, or name another model";
+                return Err(parameter.error(&why, help));
             }
         }
         let mut problem = Self {

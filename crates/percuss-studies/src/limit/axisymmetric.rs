@@ -13,6 +13,7 @@ use crate::{
     Error, Scenario, axi,
     axisymmetric::{MODEL, ReferenceMeshes, Request, limit, on_cells, seconds, too_costly},
     model::{self, Model},
+    regime::at_least,
     richardson::OnMesh,
 };
 
@@ -88,6 +89,9 @@ pub(super) fn on_meshes(
     if let Err(refusal) = model::applicability(axi, &coarsest) {
         return Ok(without(refusal.to_string()));
     }
+    if let Some(reason) = unresolved(scenario, reference) {
+        return Ok(without(reason));
+    }
     let highest = search.range.to;
     let closer = search.tolerance.at(highest) < BRACKET * highest;
     let search = &Search {
@@ -145,6 +149,22 @@ pub(super) fn on_meshes(
         );
     }
     Ok(limit)
+}
+
+/// Why the coarsest mesh cannot tell whether a layer has failed, if it cannot: material moves with what is less than two cells away.
+fn unresolved(scenario: &Scenario, reference: ReferenceMeshes) -> Option<String> {
+    let thicknesses = scenario.layers().iter().filter_map(|layer| layer.thickness);
+    let thinnest = thicknesses.fold(f64::INFINITY, f64::min);
+    let cells = reference.cells()[0];
+    let radius = 0.5 * scenario.projectile.diameter;
+    let resolved = at_least(thinnest * f64::from(cells), radius);
+    (!resolved).then(|| {
+        let remedy = match reference {
+            ReferenceMeshes::Fine => "",
+            ReferenceMeshes::Standard => ": take finer ones by `--reference fine`",
+        };
+        format!("the thinnest layer is thinner than a cell of the coarsest mesh, {cells} cells per radius{remedy}")
+    })
 }
 
 /// Reports the progress of a part of a study, after some runs, as the share of the whole that it is.

@@ -71,10 +71,12 @@ pub(super) fn bracket<T>(samples: &[Sample<T>]) -> Option<(usize, usize)> {
 }
 
 /// Middle of the interval to narrow, unless that is narrow enough. Where undecided runs lie in the bracket, the intervals at its
-/// two ends are narrowed.
+/// two ends are narrowed; where there is no bracket, those in which a change may hide.
 fn next_velocity<T>(samples: &[Sample<T>], tolerance: Tolerance) -> Option<f64> {
-    let (below, above) = bracket(samples)?;
-    let ends = [(below, below + 1), (above - 1, above)];
+    let ends = match bracket(samples) {
+        Some((below, above)) => vec![(below, below + 1), (above - 1, above)],
+        None => edges(samples),
+    };
     let narrow = |(low, high): (usize, usize)| {
         let (low, high) = (samples[low].velocity, samples[high].velocity);
         let middle = 0.5 * (low + high);
@@ -82,6 +84,22 @@ fn next_velocity<T>(samples: &[Sample<T>], tolerance: Tolerance) -> Option<f64> 
         wide.then_some(middle)
     };
     ends.into_iter().find_map(narrow)
+}
+
+/// Intervals from the highest stopped run to an undecided one above it, and from an undecided run to the lowest perforated one: the range of a
+/// model ends there, and the limit may lie between its end and the last run that is decided.
+fn edges<T>(samples: &[Sample<T>]) -> Vec<(usize, usize)> {
+    let undecided =
+        |i: usize| matches!(samples.get(i)?.passage, Passage::Undecided(_)).then_some(i);
+    let stopped = samples.iter().rposition(|s| s.passage == Passage::Stopped);
+    let perforated = samples
+        .iter()
+        .position(|s| s.passage == Passage::Perforated);
+    let upper = stopped.filter(|_| perforated.is_none());
+    let upper = upper.and_then(|i| Some((i, undecided(i + 1)?)));
+    let lower = perforated.filter(|_| stopped.is_none());
+    let lower = lower.and_then(|i| Some((undecided(i.checked_sub(1)?)?, i)));
+    upper.into_iter().chain(lower).collect()
 }
 
 #[cfg(test)]
@@ -153,6 +171,42 @@ mod tests {
         ] {
             assert_eq!((samples.len(), velocities(&samples)), (17, None));
         }
+    }
+
+    #[test]
+    fn a_limit_beside_the_end_of_a_models_range_is_found() {
+        let unknown = || Passage::Undecided("out of range".to_owned());
+        let below = |velocity: f64| {
+            if velocity > 410.0 {
+                unknown()
+            } else {
+                over(402.0)(velocity)
+            }
+        };
+        let above = |velocity: f64| {
+            if velocity < 395.0 {
+                unknown()
+            } else {
+                over(398.0)(velocity)
+            }
+        };
+        for (samples, limit) in [(searched(below), 402.0), (searched(above), 398.0)] {
+            let (low, high) = velocities(&samples).unwrap();
+            assert!(low <= limit && limit < high && high - low <= 0.5);
+        }
+        // Where there is none, the runs come as near to the end of the range as was asked.
+        let samples = searched(|velocity| {
+            if velocity > 410.0 {
+                unknown()
+            } else {
+                Passage::Stopped
+            }
+        });
+        let highest = samples
+            .iter()
+            .rfind(|s| s.passage == Passage::Stopped)
+            .unwrap();
+        assert!(velocities(&samples).is_none() && (409.5..=410.0).contains(&highest.velocity));
     }
 
     #[test]

@@ -15,8 +15,11 @@ use crate::{
     check::{Check, Diagnostic},
     error::nearest,
     inputs::{Axis, Design, resolve},
-    model::{MODELS, model},
+    model::{MODELS, model, why_unread},
 };
+
+const OTHER_MODEL: &str =
+    "vary a number that the model reads, or name the model of that table under `model`";
 
 /// Most runs in a block that is chosen by itself: one file of the result holds a block.
 const LARGEST_BLOCK: u64 = 1024;
@@ -67,15 +70,22 @@ pub(super) fn read(
         }
         other => other,
     })?;
+    let model = model(&file.model)?;
     let mut diagnostics = Vec::new();
-    check_values(&axes, &template, &mut Check::new(&mut diagnostics));
+    let mut check = Check::new(&mut diagnostics);
+    check_values(&axes, &template, &mut check);
+    for (i, axis) in axes.iter().enumerate() {
+        if let Some(why) = why_unread(model, &axis.key) {
+            check.fail(&format!("parameter.{i}.key"), why, OTHER_MODEL);
+        }
+    }
     document.report(diagnostics)?;
 
     let canonical: toml::Table = document.parse()?;
     let mut sweep = Sweep {
         title: file.title,
         base: file.base,
-        model: model(&file.model)?,
+        model,
         points: Points::new(file.design, runs, file.seed.unwrap_or(0), axes.len()),
         seed: file.seed.unwrap_or(0),
         block_size: 1,

@@ -29,7 +29,7 @@ fn load_case(name: &str, case: &str, text: &str) -> Result<Sweep, Error> {
 }
 
 pub(super) fn sweep(name: &str, head: &str, parameters: &str) -> Sweep {
-    let text = format!("base = 'scenario.toml'\nmodel = 'taylor'\n{head}\n{parameters}");
+    let text = format!("base = 'scenario.toml'\nmodel = 'fdm'\n{head}\n{parameters}");
     load(name, &text).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 

@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     Error, cost,
-    model::Model,
+    model::{Model, why_unread},
     outcome::Outcome,
     summary::{InStatistics, ResultNumber, Role},
     sweep::{Axis, BatchKernel, Kernel, Observer, Stopped, SweepRun, values},
@@ -131,7 +131,11 @@ fn analysed(
         warnings: Vec::new(),
         draws,
     };
-    found.warnings = warnings(&found);
+    let unread = study.axes.iter();
+    found.warnings = unread
+        .filter_map(|axis| why_unread(model, &axis.key))
+        .collect();
+    found.warnings.extend(warnings(&found));
     Ok(found)
 }
 

@@ -1,8 +1,9 @@
 //! The two distributions of the velocity that a test needs.
 
-use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::f64::consts::PI;
 
 use super::Method;
+use crate::inputs::normal_probability;
 
 /// A distribution with the median 0; both are symmetric.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,7 +36,7 @@ impl Link {
     /// F(z).
     pub(super) fn probability(self, z: f64) -> f64 {
         match self {
-            Self::Probit => 0.5 * libm::erfc(-z * FRAC_1_SQRT_2),
+            Self::Probit => normal_probability(z),
             Self::Logit => 1.0 / (1.0 + (-z).exp()),
         }
     }

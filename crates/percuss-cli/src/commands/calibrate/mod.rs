@@ -21,7 +21,7 @@ use percuss::{
     case,
     experiments::Kind,
     material::Library,
-    model::{MODELS, model},
+    model::{DEFAULT_MODEL, MODELS, model},
 };
 
 use crate::{
@@ -112,7 +112,7 @@ pub struct Calibrate {
     #[arg(long, value_name = "KEY")]
     hold_out: Vec<String>,
     /// Model to calibrate
-    #[arg(long, value_name = "NAME", default_value = "chain")]
+    #[arg(long, value_name = "NAME", default_value = DEFAULT_MODEL)]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: String,
     /// Correct the model to axisymmetric answers on these meshes, at the best values

@@ -14,7 +14,7 @@ use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Error,
     case::Document,
-    model::{self, MODELS, Model},
+    model::{self, DEFAULT_MODEL, MODELS, Model},
     summary::ResultNumber,
     sweep::BatchKernel,
     uncertainty::{
@@ -89,7 +89,7 @@ pub struct Uncertainty {
     #[arg(value_name = "CASE.toml")]
     case: PathBuf,
     /// Model to compute with
-    #[arg(long, value_name = "NAME", default_value = "chain")]
+    #[arg(long, value_name = "NAME", default_value = DEFAULT_MODEL)]
     #[arg(value_parser = PossibleValuesParser::new(MODELS.iter().map(|model| model.name())))]
     model: String,
     /// Number of samples; a power of two is best

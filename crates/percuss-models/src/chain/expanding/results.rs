@@ -3,10 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    super::{
-        results::of_cracks,
-        warnings::{Reached, warnings_of_cavity},
-    },
+    super::{results::of_cracks, warnings::warnings_of_cavity},
     Cavity, forces,
     node::Node,
     slice::{Slice, Undeformed},
@@ -14,6 +11,7 @@ use super::{
 };
 use crate::{
     history::{ElementState, Profile, Sample},
+    material::Reached,
     outcome::{Detail, Outcome, PLANE_IMPACT, RunResult, Termination},
     scenario::Scenario,
     solver::monitor::RunMonitor,
@@ -151,7 +149,7 @@ pub(super) fn complete(cavity: &Cavity<'_>, result: &mut RunResult, monitor: &Ru
     let [plastic_strain, strain_rate, temperature] = state.rod.reached();
     let reached = Reached {
         plastic_strain,
-        strain_rate,
+        strain_rate: Some(strain_rate),
         temperature,
     };
     let erosion_strain = cavity.control.erosion_strain;

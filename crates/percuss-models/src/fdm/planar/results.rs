@@ -2,7 +2,7 @@
 
 use super::run::PlanarImpact;
 use crate::{
-    fdm::{audit::REST_FRACTION, warnings::warn_of_material},
+    fdm::{audit::REST_FRACTION, warnings::of_materials},
     material::impedance_match,
     outcome::{Detail, Outcome, RunResult, Termination},
     scenario::TargetBody,
@@ -111,18 +111,10 @@ fn warnings(impact: &PlanarImpact<'_>, result: &RunResult) -> Vec<String> {
             significant(late.time * 1e6, 3)
         ));
     }
-    let mut bodies = vec![("projectile".to_owned(), &scenario.projectile.material)];
-    if let TargetBody::Layers { layers, .. } = &scenario.target {
-        for (i, plate) in layers.iter().enumerate() {
-            let name = match layers.len() {
-                1 => "target".to_owned(),
-                _ => format!("layer {}", i + 1),
-            };
-            bodies.push((name, &plate.material));
-        }
-    }
-    for (body, (name, material)) in bodies.into_iter().enumerate() {
-        warn_of_material(&name, material, grid.views(body), true, &mut warnings);
+    let of_records = of_materials(scenario, grid, true);
+    for (body, ((name, _), of_record)) in scenario.bodies().into_iter().zip(of_records).enumerate()
+    {
+        warnings.extend(of_record);
         if grid.bodies[body].spall_strength.is_none() {
             warnings.push(format!(
                 "the {name}'s material has no spall strength and holds any tension: give `fdm.spall_strength` or \

@@ -2,7 +2,7 @@
 
 use super::{mesh, run::Rod};
 use crate::{
-    fdm::{audit::REST_FRACTION, warnings::warn_of_material},
+    fdm::{audit::REST_FRACTION, warnings::of_materials},
     options::ChainOptions,
     outcome::{Outcome, RunResult, Termination},
     scenario::TargetBody,
@@ -62,6 +62,9 @@ pub(super) fn complete(rod: &Rod<'_>, result: &mut RunResult, monitor: &RunMonit
     }
 }
 
+/// Part of the time to rest below which a contact, which alone stops the projectile, has opened and closed again and again.
+const LEAST_CONTACT: f64 = 0.95;
+
 pub(super) fn outcome(rod: &Rod<'_>, termination: Termination, monitor: &RunMonitor) -> Outcome {
     match termination {
         Termination::PassedBackFace => return Outcome::Perforated,
@@ -96,9 +99,18 @@ fn warnings(rod: &Rod<'_>, result: &RunResult) -> Vec<String> {
         ),
         _ => warnings.extend(pushed_column_warning(scenario, result.depth_of_penetration)),
     }
+    if let (Some(contact), Some(rest)) = (result.contact_time, result.time_to_rest)
+        && contact < LEAST_CONTACT * rest
+    {
+        warnings.push(format!(
+            "peak force and contact time depend on the mesh: the contact opens and closes, and was closed for {} us of the {} us to rest",
+            significant(contact * 1e6, 3),
+            significant(rest * 1e6, 3)
+        ));
+    }
     let heated = scenario.options.chain.adiabatic_heating();
-    let material = &scenario.projectile.material;
-    warn_of_material("projectile", material, grid.views(0), heated, &mut warnings);
+    let mut bodies = of_materials(scenario, grid, heated).into_iter();
+    warnings.extend(bodies.next().into_iter().flatten());
     let TargetBody::Layers { layers, .. } = &scenario.target else {
         return warnings;
     };
@@ -135,18 +147,6 @@ fn warnings(rod: &Rod<'_>, result: &RunResult) -> Vec<String> {
             significant(length * 1e3, 3)
         ));
     }
-    for (i, plate) in layers.iter().enumerate() {
-        let name = match layers.len() {
-            1 => "target".to_owned(),
-            _ => format!("layer {}", i + 1),
-        };
-        warn_of_material(
-            &name,
-            &plate.material,
-            grid.views(i + 1),
-            heated,
-            &mut warnings,
-        );
-    }
+    warnings.extend(bodies.flatten());
     warnings
 }

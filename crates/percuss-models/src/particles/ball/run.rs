@@ -228,6 +228,9 @@ impl<'a> Solver<'a> for Collision<'a> {
         sample.tip_position = first.centre[1] + first.radius;
         sample.projectile_length = 2.0 * first.radius;
         sample.contact_force = self.state.touch.push;
+        if !self.is_free() {
+            sample.back_force = self.pushes[1].force[1];
+        }
         sample.energy = self.energy();
         sample.momentum = self.momentum();
         sample

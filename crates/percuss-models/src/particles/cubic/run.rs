@@ -64,7 +64,7 @@ impl Bonded<3> for CubicBody {
     }
 
     fn frequency(&mut self, control: &mut Control<'_>) -> Result<f64, Error> {
-        self.largest_frequency(control)
+        self.measured_frequency(control)
     }
 
     fn softening(&self) -> Option<&Softening> {

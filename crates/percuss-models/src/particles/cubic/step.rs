@@ -5,7 +5,11 @@
 use rayon::prelude::*;
 
 use super::{
-    super::{bonded::Load, energy::BodySums},
+    super::{
+        bonded::Load,
+        energy::BodySums,
+        frequency::{Oscillator, largest_frequency},
+    },
     body::{Bonds, CubicBody, Damage, Vector},
     kernels::{Common, Dilatation, Move, Next, Pull, Sum, before},
     lattice::KINDS,
@@ -15,9 +19,7 @@ use crate::{Error, random::unit, solver::Control};
 
 /// Particles below which one thread takes all layers.
 const SMALL: usize = 8192;
-/// Rounds of the search for the largest frequency, what they may leave, and the random numbers that it starts from.
-const FREQUENCY_ROUNDS: usize = 30;
-const FREQUENCY_MARGIN: f64 = 1.05;
+/// Random numbers that the search for the largest frequency starts from.
 const FREQUENCY_STREAM: u64 = 0xf1e1e;
 
 /// Forces of bonds on the particles of a layer, and of contacts.
@@ -237,12 +239,11 @@ impl CubicBody {
         })
     }
 
-    /// Largest angular frequency [rad/s], by power iteration on the accelerations of small displacements. The start is random, so that
-    /// every motion is in it, and the result is raised by what thirty rounds may leave.
+    /// Largest angular frequency [rad/s] of small displacements.
     ///
     /// # Errors
     /// [`Error::Cancelled`].
-    pub(super) fn largest_frequency(&self, control: &mut Control<'_>) -> Result<f64, Error> {
+    pub(super) fn measured_frequency(&self, control: &mut Control<'_>) -> Result<f64, Error> {
         let mut body = self.clone();
         control.ask()?;
         body.softening = None;
@@ -258,36 +259,7 @@ impl CubicBody {
                 }
             }
         }
-        let mut square = 0.0;
-        for _ in 0..FREQUENCY_ROUNDS {
-            control.ask()?;
-            let before = body.motion_norm();
-            for (state, motion) in body.state.iter_mut().zip(&mut body.motion) {
-                for (to, from) in state.iter_mut().zip(motion) {
-                    for (to, from) in to.iter_mut().zip(from) {
-                        *to = size / before * std::mem::take(from);
-                    }
-                }
-            }
-            body.refresh();
-            body.advance_layers(1.0, &[]);
-            square = body.motion_norm() / size;
-        }
-        Ok(FREQUENCY_MARGIN * square.sqrt())
-    }
-
-    /// Root of twice the kinetic energy over that of a velocity of 1 m/s.
-    fn motion_norm(&self) -> f64 {
-        let mut sum = 0.0;
-        let mut all = 0.0;
-        for (layer, motion) in self.layers.iter().zip(&self.motion) {
-            for (place, mass) in layer.mass.iter().enumerate() {
-                let square: f64 = motion.iter().map(|part| part[place] * part[place]).sum();
-                sum += mass * square;
-                all += mass;
-            }
-        }
-        (sum / all).sqrt()
+        largest_frequency(&mut body, size, control)
     }
 
     /// Stress `[xx, yy, zz, yz, xz, xy]` of a particle [Pa], tension positive: the mean over its volume by the virial of its bonds.
@@ -318,5 +290,35 @@ impl CubicBody {
         let start = self.rest_place(layer, place);
         let state = &self.state[layer];
         [0, 1, 2].map(|axis| start[axis] + state[axis][place])
+    }
+}
+
+impl Oscillator for CubicBody {
+    fn speed(&self) -> f64 {
+        let mut sum = 0.0;
+        let mut all = 0.0;
+        for (layer, motion) in self.layers.iter().zip(&self.motion) {
+            for (place, mass) in layer.mass.iter().enumerate() {
+                let square: f64 = motion.iter().map(|part| part[place] * part[place]).sum();
+                sum += mass * square;
+                all += mass;
+            }
+        }
+        (sum / all).sqrt()
+    }
+
+    fn displace_by_motion(&mut self, factor: f64) {
+        for (state, motion) in self.state.iter_mut().zip(&mut self.motion) {
+            for (to, from) in state.iter_mut().zip(motion) {
+                for (to, from) in to.iter_mut().zip(from) {
+                    *to = factor * std::mem::take(from);
+                }
+            }
+        }
+        self.refresh();
+    }
+
+    fn accelerate(&mut self) {
+        self.advance_layers(1.0, &[]);
     }
 }

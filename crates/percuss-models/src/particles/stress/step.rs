@@ -14,18 +14,17 @@ use crate::{
     particles::{
         bonded::Load,
         energy::BodySums,
+        frequency::{Oscillator, largest_frequency},
         row::{RowMotion, RowState},
+        tasks::{LEAST_ROWS, rows_at_once},
     },
     random::unit,
     solver::Control,
 };
 
-/// Rows that one task takes at least, and particles below which one task takes all.
-const LEAST_ROWS: usize = 8;
+/// Particles below which one task takes all.
 const SMALL: usize = 2048;
-/// Rounds of the search for the largest frequency, what they may leave, and the random numbers that it starts from.
-const FREQUENCY_ROUNDS: usize = 30;
-const FREQUENCY_MARGIN: f64 = 1.05;
+/// Random numbers that the search for the largest frequency starts from.
 const FREQUENCY_STREAM: u64 = 0x57e55;
 
 /// How stresses follow from deformations.
@@ -245,13 +244,7 @@ impl StressBody {
     }
 
     fn rows_at_once(&self) -> usize {
-        let rows = self.rows.len();
-        match rows * self.frame.stride {
-            0..SMALL => rows,
-            _ => rows
-                .div_ceil(4 * rayon::current_num_threads())
-                .max(LEAST_ROWS),
-        }
+        rows_at_once(self.rows.len(), self.frame.stride, SMALL)
     }
 
     /// Changes the velocities by the forces.
@@ -572,7 +565,7 @@ impl StressBody {
             .reduce(|| f64::INFINITY, f64::min)
     }
 
-    /// Largest angular frequency of the body at rest [rad/s], by power iteration from a random motion, raised by what thirty rounds may leave.
+    /// Largest angular frequency of the body at rest [rad/s].
     ///
     /// # Errors
     /// [`Error::Cancelled`].
@@ -604,26 +597,11 @@ impl StressBody {
                 motion.z[place] = draw(row, place, 1);
             }
         }
-        let mut square = 0.0;
-        for _ in 0..FREQUENCY_ROUNDS {
-            control.ask()?;
-            let factor = size / self.speed();
-            for (state, motion) in self.frame.state.iter_mut().zip(&mut self.frame.motion) {
-                for (place, speed) in [(&mut state.x, &mut motion.x), (&mut state.z, &mut motion.z)]
-                {
-                    for (place, speed) in place.iter_mut().zip(speed) {
-                        *place = factor * std::mem::take(speed);
-                    }
-                }
-            }
-            self.strain_all(Response::Elastic);
-            self.kick(1.0, &[]);
-            square = self.speed() / size;
-        }
-        Ok(FREQUENCY_MARGIN * square.sqrt())
+        largest_frequency(self, size, control)
     }
+}
 
-    /// Root of the mean square of the velocities, weighted with the masses [m/s].
+impl Oscillator for StressBody {
     fn speed(&self) -> f64 {
         let (mut sum, mut mass) = (0.0, 0.0);
         for (make, motion) in self.frame.rows.iter().zip(&self.frame.motion) {
@@ -633,5 +611,20 @@ impl StressBody {
             }
         }
         (sum / mass).sqrt()
+    }
+
+    fn displace_by_motion(&mut self, factor: f64) {
+        for (state, motion) in self.frame.state.iter_mut().zip(&mut self.frame.motion) {
+            for (place, speed) in [(&mut state.x, &mut motion.x), (&mut state.z, &mut motion.z)] {
+                for (place, speed) in place.iter_mut().zip(speed) {
+                    *place = factor * std::mem::take(speed);
+                }
+            }
+        }
+    }
+
+    fn accelerate(&mut self) {
+        self.strain_all(Response::Elastic);
+        self.kick(1.0, &[]);
     }
 }

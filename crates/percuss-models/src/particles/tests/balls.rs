@@ -440,7 +440,7 @@ fn what_is_no_ball_is_refused() {
         ),
         (
             plain(WALL, "outline = 'ball'"),
-            "a rigid wall has no `outline`",
+            "a rigid wall or a constant pressure has no `outline`",
         ),
         (plain(WALL, "spacing = '1 mm'"), "`spacing` has no effect"),
         (plain(WALL, "space = 'plane-strain'"), "allowed: \"3d\""),
