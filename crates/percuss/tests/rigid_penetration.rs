@@ -336,3 +336,24 @@ fn the_empirical_factor_of_concrete_is_warned_of_far_from_its_test() {
     assert!(!warns(14.0, "") && !warns(100.0, ""));
     assert!(!warns(150.0, "forrestal_concrete = { s = 6.0 }"));
 }
+
+#[test]
+fn indentation_is_that_of_a_flat_face() {
+    let warns = |nose: &str, options: &str| {
+        let text = format!(
+            r#"
+            projectile = {{ material = "tool-steel-hrc53", mass = "197 g", diameter = "20 mm", impact_velocity = "400 m/s", nose = {nose} }}
+            target = {{ material = "weldox-460-e", thickness = "12 mm", back_face = "free" }}
+            {options}
+            "#
+        );
+        let result = computed("power_balance", &scenario(&text));
+        result
+            .warnings
+            .iter()
+            .any(|w| w.contains("`power_balance.indentation` has no effect"))
+    };
+    let without = "power_balance = { indentation = false }";
+    assert!(warns("\"hemisphere\"", without));
+    assert!(!warns("\"flat\"", without) && !warns("\"hemisphere\"", ""));
+}

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use percuss::{
     Error, case,
-    material::Library,
+    material::{Library, Strength},
     model::{self, Control},
 };
 
@@ -116,7 +116,12 @@ fn records() -> Vec<String> {
             ids.entry(law).or_insert_with(|| entry.id.clone());
         }
     }
-    assert_eq!(ids.len(), 5, "a new law needs a record here: {ids:?}");
+    for key in Strength::KEYS {
+        assert!(
+            ids.contains_key(key) || *key == EVERY_RECORD,
+            "no record of the law `{key}` is run: add one to the library, or beside that of `elastic`"
+        );
+    }
     assert_eq!(further.len(), 31, "{further:?}");
     further.extend(ids.into_values());
     further

@@ -34,6 +34,12 @@ pub fn cylindrical_cavity_pressure(material: &Material) -> Option<f64> {
     remembered_pressure(material, 3.0_f64.sqrt(), material.room_temperature.si())
 }
 
+/// The pressure of a spherical cavity where the flow stress is constant, `(2Y/3)[1 + ln(2E/3Y)]` [Pa]: the elastic part, too, is incompressible.
+pub fn plastic_cavity_pressure(flow_stress: f64, youngs_modulus: f64) -> f64 {
+    let ratio = 2.0 * youngs_modulus / (3.0 * flow_stress);
+    2.0 / 3.0 * flow_stress * (1.0 + ratio.ln())
+}
+
 /// An integral: material, exponent and temperature, and value.
 type Known = (Material, [f64; 2], Option<f64>);
 

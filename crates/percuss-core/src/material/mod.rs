@@ -33,6 +33,7 @@ pub use brittle::Brittle;
 pub use calibrated::Calibrated;
 pub use cavity::{
     cavity_expansion_pressure, cavity_expansion_pressure_at, cylindrical_cavity_pressure,
+    plastic_cavity_pressure,
 };
 pub use damage::{Damage, DamageState, PreparedDamage};
 pub use equation_of_state::EquationOfState;

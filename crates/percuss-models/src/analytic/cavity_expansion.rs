@@ -2,7 +2,7 @@
 
 use std::{cell::RefCell, collections::VecDeque};
 
-use crate::material::{Material, cavity_expansion_pressure};
+use crate::material::{Material, cavity_expansion_pressure, plastic_cavity_pressure};
 
 /// Steps of the integration from the elastic-plastic interface to the cavity: the pressure is good to 1e-6 up to half of
 /// [`LARGEST_INTERFACE_SPEED`], to 1e-5 at it.
@@ -268,12 +268,11 @@ impl CavityExpansion {
 pub fn effective_yield_stress(material: &Material) -> Option<f64> {
     let pressure = cavity_expansion_pressure(material)?;
     let modulus = material.youngs_modulus.si();
-    let of = |stress: f64| 2.0 / 3.0 * stress * (1.0 + (2.0 * modulus / (3.0 * stress)).ln());
     // Monotonic up to 2E/3, far beyond any yield stress.
     let (mut low, mut high) = (0.0, 2.0 / 3.0 * modulus);
     for _ in 0..100 {
         let middle = f64::midpoint(low, high);
-        if of(middle) < pressure {
+        if plastic_cavity_pressure(middle, modulus) < pressure {
             low = middle;
         } else {
             high = middle;

@@ -18,7 +18,7 @@ pub(super) trait Oscillator {
     fn accelerate(&mut self);
 }
 
-/// Largest angular frequency [rad/s] of a body whose velocities are drawn at random, so that every motion is in them; the iteration displaces
+/// Largest angular frequency [rad/s] of a body with random velocities, so that every motion is in them; the iteration displaces
 /// it by a root mean square of `size` [m].
 ///
 /// # Errors

@@ -115,6 +115,9 @@ macro_rules! strength_laws {
         }
 
         impl Strength {
+            /// The keys of all laws that a file can name.
+            pub const KEYS: &'static [&'static str] = &[$($key),*];
+
             /// The key of this law in a file.
             pub fn key(&self) -> &'static str {
                 match self {

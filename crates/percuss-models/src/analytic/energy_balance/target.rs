@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::super::power_balance::fields::punch;
+use crate::material::plastic_cavity_pressure;
 
 /// A target that flows at one stress.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,10 +19,9 @@ pub(super) struct Target {
 }
 
 impl Target {
-    /// Energy per volume of a deep crater [J/m3]: the pressure of an incompressible spherical cavity, `(2Y/3)[1 + ln(2E/3Y)]`.
+    /// Energy per volume of a deep crater [J/m3]: the pressure of an incompressible spherical cavity.
     pub(super) fn deep(&self) -> f64 {
-        let ratio = 2.0 * self.youngs_modulus / (3.0 * self.strength);
-        2.0 / 3.0 * self.strength * (1.0 + ratio.ln())
+        plastic_cavity_pressure(self.strength, self.youngs_modulus)
     }
 
     /// Energy per volume that a floor at a depth [m] takes [J/m3]: the least of two fields.

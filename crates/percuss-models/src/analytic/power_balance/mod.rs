@@ -262,6 +262,11 @@ impl Model for PowerBalance {
             result.depth_of_penetration = Some(0.0);
         }
         result.warnings.extend(taken_as_rigid(scenario));
+        if !impact.indentation && scenario.projectile.nose != Nose::Flat {
+            result.warnings.push(
+                "`power_balance.indentation` has no effect: it is that of a flat face".to_owned(),
+            );
+        }
         Ok(result)
     }
 }

@@ -111,7 +111,8 @@ fn warnings(impact: &PlanarImpact<'_>, result: &RunResult) -> Vec<String> {
             significant(late.time * 1e6, 3)
         ));
     }
-    let of_records = of_materials(scenario, grid, true);
+    let heated = scenario.options.chain.adiabatic_heating();
+    let of_records = of_materials(scenario, grid, heated);
     for (body, ((name, _), of_record)) in scenario.bodies().into_iter().zip(of_records).enumerate()
     {
         warnings.extend(of_record);
