@@ -4,7 +4,7 @@ use std::fs;
 
 use tempfile::TempDir;
 
-use crate::support::{Said, folder_with, json, percuss};
+use crate::support::{Said, flat, folder_with, json, percuss};
 
 const YIELD: &str = "materials.ofhc-copper-johnson-cook.strength.johnson_cook.a=20..300 MPa";
 const WILKINS: [&str; 8] = [
@@ -50,6 +50,15 @@ fn least_squares_say_what_they_found() {
         line.starts_with("key=materials.ofhc-copper-johnson-cook"),
         "{line}"
     );
+}
+
+#[test]
+fn an_option_of_another_model_is_no_parameter() {
+    let folder = TempDir::new().unwrap();
+    let said = calibrate(&folder, "chain.heat_fraction=0..1", &[]);
+    assert_eq!(said.code, 2);
+    let words = "model `wilkins_guinan` does not read the table `chain`";
+    assert!(flat(&said.stderr).contains(words), "{}", said.stderr);
 }
 
 /// The files of a calibration: the same from the same seed, and a material that a case can use at once.

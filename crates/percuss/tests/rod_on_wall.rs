@@ -179,3 +179,34 @@ fn models_agree_on_the_range_of_a_record_and_on_what_a_wall_lacks() {
         }
     }
 }
+
+/// Cells that chatter on a wall give neither a peak force nor a contact time; an ordinary impact is not warned of.
+#[test]
+fn a_contact_that_opens_and_closes_is_warned_of() {
+    for (speed, expected) in [(300.0, false), (1500.0, true)] {
+        let text = format!(
+            "projectile = {{ material = 'mars-500-plate', length = '100 mm', diameter = '20 mm', impact_velocity = '{speed} m/s' }}\n\
+             target = {{ rigid_wall = true }}"
+        );
+        let result = run("fdm", &scenario(&text));
+        let words = "peak force and contact time depend on the mesh";
+        let warned = result.warnings.iter().any(|w| w.contains(words));
+        assert_eq!(warned, expected, "{speed} m/s");
+    }
+}
+
+/// A plate at the bound of a warning by thickness is the same plate in inches.
+#[test]
+fn warnings_of_a_plate_do_not_depend_on_the_unit() {
+    for model in ["chain", "axi"] {
+        let warnings = |diameter: &str, thickness: &str| {
+            let text = format!(
+                "projectile = {{ material = 'copper', length = '20 mm', diameter = '{diameter}', impact_velocity = '100 m/s' }}\n\
+                 target = {{ material = 'aluminium-2024-t351', thickness = '{thickness}' }}\naxi = {{ cells_per_radius = 3 }}"
+            );
+            run(model, &scenario(&text)).warnings.len()
+        };
+        let inches = warnings("0.393700787401575 in", "1.18110236220472 in");
+        assert_eq!(warnings("10 mm", "30 mm"), inches, "{model}");
+    }
+}
