@@ -63,6 +63,13 @@ pub enum Failure {
         /// What they differ in.
         runs: &'static str,
     },
+    /// The user stopped the axisymmetric answers of a sweep; its rows and the answers that are complete are there.
+    AnswersStopped {
+        /// How many are complete.
+        complete: usize,
+        /// How many were wanted.
+        wanted: usize,
+    },
     /// The command line asks for something that does not exist.
     Usage {
         /// Message.
@@ -138,6 +145,7 @@ impl Failure {
             | Self::SweepStopped { .. }
             | Self::Interrupted(_)
             | Self::AxisymmetricStopped
+            | Self::AnswersStopped { .. }
             | Self::StudyStopped { .. } => 130,
             Self::Library(Error::Numerical(_) | Error::Cancelled { .. }) | Self::Report(_) => 3,
             Self::Library(Error::Read { .. }) | Self::Write { .. } | Self::Output(_) => 4,
@@ -231,6 +239,12 @@ impl Failure {
                     "the study was stopped after {complete} of {wanted} {runs}; their results stand"
                 ),
                 "",
+            ),
+            Self::AnswersStopped { complete, wanted } => message(
+                &format!(
+                    "the sweep is complete; its axisymmetric answers were stopped with {complete} of {wanted} done"
+                ),
+                "the same command with `--resume` continues from there",
             ),
             Self::Usage {
                 message: what,

@@ -40,7 +40,7 @@ pub use failure::Failure;
 pub use memory::limit_memory;
 pub use response::{ProgressCallback, Response, ResponseData, VirtualFiles};
 pub use run_output::RunOutput;
-pub use workers::start as start_threads;
+pub use workers::{MOST_THREADS, pool as thread_pool, start as start_threads};
 
 /// Definition of the command line, for reference pages.
 pub fn command() -> clap::Command {

@@ -333,6 +333,15 @@ linear = { from = '150 m/s', to = '400 m/s', count = 10 }
         );
         assert_eq!(row[column("quantity")], "depth_of_penetration_mm");
     }
+    // Another plate: the manifest is removed as its error says, and the answers are those of the plate before.
+    let other = CASE.replacen("25 mm", "20 mm", 1);
+    assert_ne!(other, CASE);
+    fs::write(folder.path().join("scenario.toml"), other).unwrap();
+    fs::remove_file(folder.path().join("rows/manifest.json")).unwrap();
+    let said = sweep(&folder, &resumed("2"));
+    assert_eq!(said.code, 2);
+    let words = "its rows are those of another sweep, or of another case";
+    assert!(said.stderr.contains(words), "{}", said.stderr);
     fs::write(folder.path().join("rows/axisymmetric.csv"), "a,b\n1,2\n").unwrap();
     let said = sweep(&folder, &resumed("2"));
     assert_eq!(said.code, 2);

@@ -140,9 +140,21 @@ impl<'a> Check<'a> {
         });
     }
 
-    /// Reports a quantity outside its limits.
-    pub fn quantity<D: Dimension>(&mut self, key: &str, value: Quantity<D>, limits: Limits) {
-        if !limits.allow(value.si()) {
+    /// Reports each key that is given where it may not be.
+    pub fn refuse(&mut self, keys: &[(&str, bool)], message: impl Fn(&str) -> String, help: &str) {
+        for (key, _) in keys.iter().filter(|(_, given)| *given) {
+            self.fail(key, message(key), help);
+        }
+    }
+
+    /// Reports a quantity outside its limits, where one is given.
+    pub fn quantity<D: Dimension>(
+        &mut self,
+        key: &str,
+        value: impl Into<Option<Quantity<D>>>,
+        limits: Limits,
+    ) {
+        if let Some(value) = value.into().filter(|value| !limits.allow(value.si())) {
             self.fail(
                 key,
                 format!("{value} is out of range"),
@@ -156,9 +168,9 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// Reports a plain number outside its limits.
-    pub fn number(&mut self, key: &str, value: f64, limits: Limits) {
-        if !limits.allow(value) {
+    /// Reports a plain number outside its limits, where one is given.
+    pub fn number(&mut self, key: &str, value: impl Into<Option<f64>>, limits: Limits) {
+        if let Some(value) = value.into().filter(|value| !limits.allow(*value)) {
             self.fail(
                 key,
                 format!("{} is out of range", significant(value, 6)),

@@ -2,6 +2,7 @@
 //!
 //! Depend on `percuss`, which has all of it under stable paths. Public items that `percuss` does not re-export serve its other crates.
 
+pub mod bisection;
 pub mod check;
 pub mod document;
 pub mod error;

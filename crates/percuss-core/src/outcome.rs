@@ -133,7 +133,8 @@ pub struct RunResult {
     pub criterion: String,
     /// Why the run was ended.
     pub termination: Termination,
-    /// Depth of the crater floor below the original face when the projectile's momentum is used up [m].
+    /// Depth of the crater floor below the original face when the projectile's momentum is used up [m]; with the expanding cavity of `chain`
+    /// the permanent one.
     ///
     /// The largest depth reached when the run ends before that; `None` for a rigid wall and a perforated target.
     pub depth_of_penetration: Option<f64>,
@@ -297,6 +298,13 @@ pub struct Detail {
     pub unit: &'static str,
     /// Its value in that unit.
     pub value: f64,
+}
+
+impl Detail {
+    /// A number by its name, its unit and its value in it.
+    pub const fn new(name: &'static str, unit: &'static str, value: f64) -> Self {
+        Self { name, unit, value }
+    }
 }
 
 /// Steps and balances of a model that steps through time on a mesh.

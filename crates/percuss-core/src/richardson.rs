@@ -1,5 +1,7 @@
 //! Richardson extrapolation: observed order of convergence and extrapolated value from three meshes \[richardson1911, roache1994\].
 
+use crate::bisection::bisected;
+
 /// Orders that an extrapolation is trusted with: the schemes are of second order at best, and one half belongs to a front that still
 /// widens.
 pub const CREDIBLE_ORDERS: std::ops::RangeInclusive<f64> = 0.5..=2.2;
@@ -54,17 +56,8 @@ pub fn trend([coarse, medium, fine]: [OnMesh; 3]) -> Trend {
         return Trend::Oscillating;
     }
     let at = |order: f64| (above.powf(order) - 1.0) / (1.0 - below.powf(-order));
-    let (mut low, mut high) = (0.0, LARGEST_ORDER);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if at(middle) < ratio {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
     Trend::Monotone {
-        order: 0.5 * (low + high),
+        order: bisected(0.0, LARGEST_ORDER, HALVINGS, |order| at(order) < ratio),
     }
 }
 

@@ -257,6 +257,20 @@ impl Scenario {
         }
     }
 
+    /// Length of the column of target that is modelled [m]; 0 for a target without layers.
+    pub fn modelled_length(&self) -> f64 {
+        let layers = self.layers().iter();
+        layers.map(|plate| modelled_thickness(plate, self)).sum()
+    }
+
+    /// The layer of a target that has only one.
+    pub fn only_layer(&self) -> Option<&Plate> {
+        match self.layers() {
+            [layer] => Some(layer),
+            _ => None,
+        }
+    }
+
     /// Bodies by their names in messages, each with its material: the projectile, then the layers of the target.
     pub fn bodies(&self) -> Vec<(String, &Material)> {
         let layers = self.layers();

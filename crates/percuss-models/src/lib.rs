@@ -14,7 +14,7 @@ mod solid;
 #[cfg(test)]
 use percuss::{case, compare, summary};
 use percuss_core::{
-    Error, Refusal, Scenario, check, error, fragments, history, lanes, ledger, material, minimum,
-    options, outcome, power, problem, random, regime, resistance, scenario, shapes, solver, units,
-    validity,
+    Error, Refusal, Scenario, bisection, check, error, fragments, history, lanes, ledger, material,
+    minimum, options, outcome, power, problem, random, regime, resistance, scenario, shapes,
+    solver, units, validity,
 };

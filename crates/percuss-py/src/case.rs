@@ -78,6 +78,11 @@ impl Case {
         self.document.text()
     }
 
+    /// What a file says that has the same case in every folder: records and curves of other files stand in it.
+    fn self_contained(&self, py: Python<'_>) -> PyResult<String> {
+        percuss::case::self_contained(&self.document).map_err(|error| raise(py, error))
+    }
+
     /// The folder that paths in it are relative to.
     #[getter]
     fn folder(&self) -> PathBuf {

@@ -11,7 +11,9 @@ use percuss::{
 };
 use pyo3::{exceptions::PyValueError, prelude::*};
 
-use crate::{first_error::FirstError, resistance::resistance};
+use percuss_cli::Failure;
+
+use crate::{errors::raise, first_error::FirstError, resistance::resistance};
 
 /// Stress that stands in once a law has failed [Pa]: the run goes on to the next place where it can be ended.
 const STAND_IN: f64 = 1e6;
@@ -36,11 +38,27 @@ pub struct Laws {
 
 impl Laws {
     /// The case with these laws; the same case where there are none.
-    pub fn put_into(&self, py: Python<'_>, scenario: &Arc<Scenario>) -> Arc<Scenario> {
-        if self.are_none() {
-            return Arc::clone(scenario);
+    ///
+    /// # Errors
+    /// A law of a target whose case has no solid one.
+    pub fn put_into(&self, py: Python<'_>, scenario: &Arc<Scenario>) -> PyResult<Arc<Scenario>> {
+        self.check(py, scenario)?;
+        Ok(match self.are_none() {
+            true => Arc::clone(scenario),
+            false => Arc::new(self.changed(py, (**scenario).clone())),
+        })
+    }
+
+    /// Refuses a law of a target whose case has no solid one.
+    pub fn check(&self, py: Python<'_>, scenario: &Scenario) -> PyResult<()> {
+        if self.target.is_none() || matches!(scenario.target, TargetBody::Layers { .. }) {
+            return Ok(());
         }
-        Arc::new(self.changed(py, (**scenario).clone()))
+        let refusal = Failure::Usage {
+            message: "`target_law` has no effect: the case has no solid target".to_owned(),
+            help: "leave it out, or give the target a material and a thickness".to_owned(),
+        };
+        Err(raise(py, refusal))
     }
 
     /// Whether there is no law.

@@ -40,4 +40,7 @@ mod _percuss {
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+    #[pymodule_export]
+    const MOST_THREADS: u16 = percuss_cli::MOST_THREADS;
 }

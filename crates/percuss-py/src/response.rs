@@ -45,6 +45,7 @@ pub fn execute(
     });
     let mut virtual_files = VirtualFiles::default();
     for (name, case) in cases {
+        laws.check(py, &case.get().scenario)?;
         virtual_files.put(name, case.get().document.clone());
     }
     for (name, text) in texts {
@@ -160,7 +161,7 @@ fn of_sample(calibration: &Calibration) -> Numbers {
         ("walker".to_owned(), place(&|i| i % walkers)),
     ];
     for (i, parameter) in calibration.parameters.iter().enumerate() {
-        numbers.push((parameter.key.clone(), sample.values(i)));
+        numbers.push((parameter.column(), sample.values(i)));
     }
     if calibration.scatter.estimated {
         let logarithms = sample.values(calibration.parameters.len());

@@ -69,7 +69,7 @@ pub fn run(
         ..Laws::default()
     };
     percuss_cli::limit_memory().map_err(|failure| raise(py, failure))?;
-    let scenario = laws.put_into(py, &case.get().scenario);
+    let scenario = laws.put_into(py, &case.get().scenario)?;
     let chosen = model::choose(model, &scenario).map_err(|error| raise(py, error))?;
     let mut monitor = PythonMonitor::new(progress.as_ref());
     let mut solver_time = Duration::ZERO;

@@ -13,7 +13,7 @@ use percuss::{
     document::read_text,
     sweep::{BatchKernel, Kernel, Stopped, Sweep as Loaded, SweepRow, SweepRun},
 };
-use percuss_cli::{Failure, start_threads};
+use percuss_cli::{start_threads, thread_pool};
 use percuss_report::sweep::{Block, SweepFolder as Folder};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyBytes};
 
@@ -45,6 +45,9 @@ impl Sweep {
             target: target_law,
             ..Laws::default()
         });
+        if let Ok(first) = sweep.run(0).scenario {
+            laws.check(py, &first)?;
+        }
         if !laws.are_none() {
             sweep = sweep.with_change(Arc::clone(&laws).as_change(law_name));
         }
@@ -164,7 +167,7 @@ pub fn compute_sweep(
     folder: &Bound<'_, SweepFolder>,
     part: u64,
     parts: u64,
-    threads: Option<usize>,
+    threads: Option<u16>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<bool> {
     let laws = &sweep.get().laws;
@@ -182,13 +185,7 @@ pub fn compute_sweep(
             let _ = progress_state
                 .on_progress(done as f64 / due as f64, &format!("{done} of {due} runs"));
         };
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.unwrap_or(0))
-            .build()
-            .map_err(|error| Failure::Usage {
-                message: format!("cannot start the threads: {error}"),
-                help: "ask for fewer threads".to_owned(),
-            })?;
+        let pool = thread_pool(threads)?;
         let kernel = LawKernel {
             kernel: BatchKernel::new(sweep.model),
             laws,

@@ -254,3 +254,10 @@ def test_laws_are_refused_where_they_would_have_no_effect(tmp_path: Path) -> Non
     for more in ({"out": tmp_path}, {"axisymmetric": 4}):
         with pytest.raises(percuss.UsageError, match="leave them out"):
             percuss.uncertainty(uncertain(case), projectile_law=lambda *_: 3e8, **more)
+
+
+def test_a_law_of_a_target_that_is_none_is_refused(tmp_path: Path) -> None:
+    case = shot({"rigid_wall": True})
+    for compute in (lambda law: percuss.run(case, target_law=law), lambda law: percuss.sweep(varied(case), tmp_path / "rows", target_law=law)):
+        with pytest.raises(percuss.UsageError, match="no solid target"):
+            compute(lambda *_: 300e6)

@@ -238,5 +238,5 @@ def test_arrays_outlive_their_result() -> None:
 
 def test_a_formula_has_no_history() -> None:
     result = percuss.run("cases/taylor-copper-wilkins/scenario.toml", "taylor")
-    with pytest.raises(ValueError, match="has no history"):
+    with pytest.raises(AttributeError, match="has no history"):
         _ = result.history

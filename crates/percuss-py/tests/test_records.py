@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import json
+import pickle
 import typing
 from functools import cached_property
 from pathlib import Path
@@ -186,3 +188,40 @@ def test_a_misspelt_name_says_which_there_are() -> None:
     with pytest.raises(KeyError, match="no column"):
         _ = run.history["depth"]
     assert "outcome" in dir(run) and "depth_mm" in dir(run.history)
+
+
+def test_records_are_copied_and_pickled() -> None:
+    result = percuss.run(CASE)
+    error = result.expected_error
+    assert isinstance(error, Record)
+    assert copy.copy(error) == copy.deepcopy(error) == pickle.loads(pickle.dumps(error)) == error
+    assert copy.copy(result).depth_of_penetration_mm == result.depth_of_penetration_mm
+    assert copy.copy(result.history.si).names() == result.history.si.names()
+    # What is taken out is a copy.
+    table = result.to_dict()
+    table.clear()
+    assert "depth" in repr(result)
+
+
+def test_a_formula_has_no_history() -> None:
+    result = percuss.run(CASE, model="crater_energy")
+    assert not hasattr(result, "history")
+    with pytest.raises(AttributeError, match="`crater_energy` has no history"):
+        result.history
+
+
+def test_the_table_of_a_gauge_has_its_times() -> None:
+    case = percuss.load(CASE).replace({"gauges": [{"name": "rod", "position": "-6 mm"}]})
+    gauge = percuss.run(case).history.gauges["rod"]
+    table = gauge.to_pandas(units="SI")
+    assert table.columns[0] == "time_s" and gauge.names()[0] == "time_us"
+    assert not gauge.time_us.flags.writeable and gauge.time_us is gauge.time_us
+
+
+def test_whole_numbers_of_numpy_are_velocities() -> None:
+    import numpy
+
+    found = percuss.compare(CASE, velocity=numpy.int64(200), fast=True)
+    assert {record.impact_velocity_m_s for record in found.results} == {200.0}
+    with pytest.raises(TypeError, match="velocity"):
+        percuss.compare(CASE, velocity=True)

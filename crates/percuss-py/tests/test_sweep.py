@@ -129,6 +129,56 @@ def test_a_mapping_is_a_sweep_file(program: Program, tmp_path: Path) -> None:
     assert by_path.manifest.case == "paper-table1" and rows.manifest.case == "paper-table1"
 
 
+def test_the_case_that_is_swept_is_the_one_that_is_given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    case = percuss.load("cases/paper-table1/scenario.toml").replace({"chain.projectile_elements": 10})
+    case.save(tmp_path / "a.toml")
+    case = percuss.load(tmp_path / "a.toml")
+    speeds = {"key": "projectile.impact_velocity", "values": ["200 m/s", "230 m/s"]}
+    sweep = {"base": case, "model": "chain", "design": "grid", "parameter": [speeds]}
+    # The file is another case by now, and then gone.
+    case.replace({"projectile.diameter": "9 mm"}).save(tmp_path / "a.toml")
+    depth = percuss.run(case).depth_of_penetration_mm
+    assert percuss.sweep(sweep).to_pandas()["depth_of_penetration_mm"].tolist()[1] == depth
+    (tmp_path / "a.toml").unlink()
+    monkeypatch.chdir(tmp_path)
+    assert percuss.sweep(sweep).to_pandas()["depth_of_penetration_mm"].tolist()[1] == depth
+
+
+def test_what_is_refused_leaves_the_folder_as_it_was(tmp_path: Path) -> None:
+    case = percuss.load("cases/paper-table1/scenario.toml").replace({"chain.projectile_elements": 10})
+
+    def sweep(*speeds: str, key: str = "projectile.impact_velocity", base: percuss.Case = case) -> dict[str, Any]:
+        return {"base": base, "model": "chain", "design": "grid", "parameter": [{"key": key, "values": list(speeds)}]}
+
+    def files(folder: Path) -> dict[str, bytes]:
+        return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+    rows = tmp_path / "rows"
+    percuss.sweep(sweep("200 m/s"), rows)
+    before = files(rows)
+    with pytest.raises(percuss.UsageError, match="another sweep"):
+        percuss.sweep(sweep("210 m/s"), rows)
+    assert files(rows) == before
+    with pytest.raises(percuss.CaseError, match="velicity"):
+        percuss.sweep(sweep("1 m/s", key="projectile.velicity"), tmp_path / "none")
+    assert not (tmp_path / "none").exists()
+    own = tmp_path / "own"
+    own.mkdir()
+    (own / "sweep.toml").write_text("# mine")
+    with pytest.raises(percuss.UsageError, match="is not of this sweep"):
+        percuss.sweep(sweep("200 m/s"), own)
+    assert files(own) == {"sweep.toml": b"# mine"}
+    for name in ("sweep", "a/b"):
+        renamed = percuss.Case.from_text(case.text, name)
+        assert percuss.sweep(sweep("200 m/s", base=renamed), tmp_path / name.replace("/", "-")).complete
+
+
+@pytest.mark.parametrize("threads", [0, -1, 1025, 10**9])
+def test_a_number_of_threads_that_no_machine_has_is_refused(threads: int, tmp_path: Path) -> None:
+    with pytest.raises(percuss.UsageError, match="1 to 1024"):
+        percuss.sweep(sweep_file(tmp_path), threads=threads)
+
+
 def test_a_block_of_another_sweep_is_refused(tmp_path: Path) -> None:
     path = sweep_file(tmp_path)
     sweep = percuss._percuss.Sweep(path)

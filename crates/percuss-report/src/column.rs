@@ -4,6 +4,7 @@
 mod parquet_file;
 
 use percuss::units::UnitSystem;
+use serde::Serialize;
 
 use crate::ReportError;
 
@@ -107,6 +108,25 @@ impl<R> Column<R> {
             value: Value::Text(Box::new(value)),
         }
     }
+
+    /// What a study varies: a number, or the word that it stands for.
+    pub fn varied(
+        name: impl Into<String>,
+        words: Option<Vec<String>>,
+        value: impl Fn(&R) -> f64 + 'static,
+    ) -> Self {
+        match words {
+            None => Self::float(name, value),
+            Some(words) => Self::text(name, move |row| words[value(row) as usize].clone()),
+        }
+    }
+}
+
+/// The name that a value has in JSON, which tables have too; empty when there is none.
+pub(crate) fn word(value: &impl Serialize) -> String {
+    // Words and numbers always make JSON.
+    let json = serde_json::to_string(value).unwrap_or_default();
+    json.trim_matches('"').replace("null", "")
 }
 
 /// The table as CSV with a header; numbers have as many digits as it takes to read them back unchanged.

@@ -11,7 +11,7 @@ use percuss::{
 
 use crate::{
     ReportError,
-    column::{self, Column},
+    column::{self, Column, word},
     replace_file::replace_files,
 };
 
@@ -80,9 +80,7 @@ fn columns() -> Vec<Column<Entry>> {
         Column::text("regime", |e: &Entry| e.regime.to_owned()),
         Column::text("model", |e: &Entry| e.record.model.to_owned()),
         Column::integer("recommended", |e: &Entry| i64::from(e.recommended)),
-        Column::text("outcome", |e: &Entry| {
-            e.record.outcome.describe().to_owned()
-        }),
+        Column::text("outcome", |e: &Entry| word(&e.record.outcome)),
     ];
     for &quantity in BandQuantity::ALL {
         let name = quantity.name();

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use percuss::{
     Error,
     model::{self, Control},
+    solver::go_on_to_next_run,
     units::significant,
 };
 use percuss_report::{
@@ -93,12 +94,7 @@ pub fn damping_study(progress: OnProgress<'_>) -> Result<DampingStudy, Error> {
     for (speed, elements) in places {
         let mut undamped = f64::NAN;
         for (i, (way, options)) in WAYS.iter().enumerate() {
-            if progress(runs.len() as f64 / total).is_break() {
-                return Err(Error::Cancelled {
-                    step: 0,
-                    time_us: 0.0,
-                });
-            }
+            go_on_to_next_run(progress(runs.len() as f64 / total))?;
             let (depth_mm, damped, eroded) = run(speed, elements, options)?;
             if i == 0 {
                 undamped = depth_mm;

@@ -1,5 +1,11 @@
 //! Example cases of the folder `cases`, embedded in the program.
 
+use std::sync::LazyLock;
+
+use percuss::{
+    case,
+    model::{self, CostClass},
+};
 use serde::Serialize;
 
 use crate::StartCase;
@@ -29,11 +35,21 @@ impl ReadyCase {
     }
 }
 
-/// All ready cases, the one that the page opens on first.
+/// Ready cases that a quick model computes, the one that the page opens on first. The others are for the command line.
 pub(crate) fn all() -> Vec<ReadyCase> {
-    let mut cases: Vec<ReadyCase> = CASES.iter().filter_map(read).collect();
-    cases.sort_by(|a, b| (a.name != FIRST, &a.name).cmp(&(b.name != FIRST, &b.name)));
-    cases
+    static QUICK: LazyLock<Vec<ReadyCase>> = LazyLock::new(|| {
+        let mut cases: Vec<ReadyCase> = CASES.iter().filter_map(read).collect();
+        cases.retain(has_quick_model);
+        cases.sort_by(|a, b| (a.name != FIRST, &a.name).cmp(&(b.name != FIRST, &b.name)));
+        cases
+    });
+    QUICK.clone()
+}
+
+fn has_quick_model(ready: &ReadyCase) -> bool {
+    let scenario = case::load_str(&ready.name, &ready.text).ok();
+    let chosen = scenario.and_then(|scenario| model::default_model(&scenario).ok());
+    chosen.is_some_and(|chosen| chosen.model.cost() != CostClass::Minutes)
 }
 
 fn read((name, text): &(&str, &str)) -> Option<ReadyCase> {

@@ -61,10 +61,10 @@ impl RequestLimits {
         if let TargetBody::Layers { layers, .. } = &scenario.target
             && layers.len() > LAYERS
         {
-            return Err(Problem::too_large(
+            return Err(Problem::at(
+                "target.layers",
                 format!("the target has {} layers", layers.len()),
                 format!("the page allows up to {LAYERS}; use `percuss run` for more"),
-                "target.layers",
             ));
         }
         let options = &scenario.options;
@@ -80,36 +80,37 @@ impl RequestLimits {
             _ => 0,
         };
         if elements > self.elements {
-            return Err(Problem::too_large(
+            let key = match model.name() {
+                "fdm" => "fdm.target_elements",
+                _ => "chain.target_elements",
+            };
+            return Err(Problem::at(
+                key,
                 format!("the mesh has {elements} elements"),
                 format!(
                     "this page allows up to {}: use a coarser mesh, restart it with a larger `--max-elements`, or use `percuss run`",
                     self.elements
                 ),
-                match model.name() {
-                    "fdm" => "fdm.target_elements",
-                    _ => "chain.target_elements",
-                },
             ));
         }
         let cells = options.axi.cells_per_radius();
         let particles = percuss::particles::particles(scenario);
         if model.name() == "particles" && particles > PARTICLES {
-            return Err(Problem::too_large(
+            return Err(Problem::at(
+                "particles.spacing",
                 format!("the lattice has {particles:.0} particles"),
                 format!(
                     "the page allows up to {PARTICLES}; use `percuss run --model particles` for more"
                 ),
-                "particles.spacing",
             ));
         }
         if model.name() == "axi" && cells > CELLS_PER_RADIUS {
-            return Err(Problem::too_large(
+            return Err(Problem::at(
+                "axi.cells_per_radius",
                 format!("the mesh has {cells} cells along the projectile's radius"),
                 format!(
                     "the page allows up to {CELLS_PER_RADIUS}; use `percuss run --model axi` for more"
                 ),
-                "axi.cells_per_radius",
             ));
         }
         Ok(())

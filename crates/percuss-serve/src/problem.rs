@@ -53,6 +53,19 @@ impl Problem {
         Self::new(StatusCode::BAD_REQUEST, message, "reload the page")
     }
 
+    /// What is wrong at a key of the case.
+    pub(crate) fn at(key: &str, message: String, help: impl Into<String>) -> Self {
+        Self {
+            key: key.to_owned(),
+            ..Self::new(StatusCode::UNPROCESSABLE_ENTITY, message, help)
+        }
+    }
+
+    #[cfg(test)]
+    pub(crate) fn key(&self) -> &str {
+        &self.key
+    }
+
     pub(crate) fn with_status(status: StatusCode, message: &str, help: &str) -> Self {
         Self::new(status, message, help)
     }
@@ -70,14 +83,6 @@ impl Problem {
     /// Message and remedy.
     pub(crate) fn into_message_and_help(self) -> (String, String) {
         (self.message, self.help)
-    }
-
-    /// Case beyond the limits of the page.
-    pub(crate) fn too_large(message: String, help: String, key: &str) -> Self {
-        Self {
-            key: key.to_owned(),
-            ..Self::new(StatusCode::UNPROCESSABLE_ENTITY, message, help)
-        }
     }
 
     /// All workers are busy.

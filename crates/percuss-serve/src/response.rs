@@ -204,10 +204,19 @@ pub(crate) fn compute_request(
     let read = asked.read(text)?;
     let chosen = asked.model(&read.scenario, bounds)?;
     if chosen.model.cost() == CostClass::Minutes {
-        return Err(Problem::bad_request(format!(
-            "model `{}` takes too long for an immediate response",
-            chosen.model.name()
-        )));
+        let name = chosen.model.name();
+        return Err(match &asked.model {
+            Some(_) => Problem::refused(
+                format!("model `{name}` takes too long for the page"),
+                "choose another model, or use `percuss run` for this case",
+            ),
+            None => Problem::refused(
+                format!(
+                    "no quick model applies to this case: the page has no answer at once, and `{name}` takes too long"
+                ),
+                "use `percuss run` for this case",
+            ),
+        });
     }
     compute(read, &chosen, asked.in_view.as_deref(), stop, None)
 }

@@ -25,8 +25,9 @@ pub mod validate;
 #[cfg(test)]
 use percuss_core::NumericalError;
 use percuss_core::{
-    Error, Refusal, Scenario, check, document, error, fragments, history, lanes, material, minimum,
-    options, outcome, problem, regime, richardson, scenario, solver, statistics, units, validity,
+    Error, Refusal, Scenario, bisection, check, document, error, fragments, history, lanes,
+    material, minimum, options, outcome, problem, regime, richardson, scenario, solver, statistics,
+    units, validity,
 };
 use percuss_input::{case, csv_table, inputs};
 use percuss_models::{analytic, axi, chain, model};

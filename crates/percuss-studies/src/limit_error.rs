@@ -15,7 +15,6 @@ use crate::{
     model_error::ModelErrorEstimate,
     outcome::BandQuantity,
     regime::{ProjectileRegime, Regime, STRENGTH_STRAIN, TargetKind, at_least, nose_factor},
-    scenario::TargetBody,
     validate::{self, Standing},
     validity::{Measure, NoseKind, Range},
 };
@@ -80,12 +79,7 @@ impl Plate {
         if scenario.is_heated() {
             return None;
         }
-        let TargetBody::Layers { layers, .. } = &scenario.target else {
-            return None;
-        };
-        let [layer] = layers.as_slice() else {
-            return None;
-        };
+        let layer = scenario.only_layer()?;
         let regime = Regime::of(scenario);
         let material: &Material = &layer.material;
         Some(Self {

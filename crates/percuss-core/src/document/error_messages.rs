@@ -290,7 +290,7 @@ fn wrong_type(message: &str, source: &str) -> Option<Reworded> {
         }
         Some(("boolean", value)) => value.trim_matches('`').to_owned(),
         _ if found == "sequence" => "a list".to_owned(),
-        _ if found == "map" && !source.starts_with(['{', '[']) => "a date or time".to_owned(),
+        _ if found == "map" && is_date_or_time(source.trim()) => "a date or time".to_owned(),
         _ if found == "map" => "a table".to_owned(),
         _ => found.to_owned(),
     };
@@ -320,6 +320,12 @@ fn wrong_type(message: &str, source: &str) -> Option<Reworded> {
         due => (due, ""),
     };
     Some(says(format!("{due} is due here, not {found}"), help))
+}
+
+/// Whether a value is a date or a time, which the reader of TOML takes for a table.
+fn is_date_or_time(source: &str) -> bool {
+    let starts_with_digits = source.bytes().take(2).filter(u8::is_ascii_digit).count() == 2;
+    starts_with_digits && source.contains(['-', ':'])
 }
 
 /// Text that is not TOML.

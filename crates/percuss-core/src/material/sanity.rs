@@ -34,9 +34,7 @@ impl Material {
             self.poissons_ratio,
             limits::POISSONS_RATIO,
         );
-        if let Some(heat) = self.specific_heat {
-            check.quantity("specific_heat", heat, limits::SPECIFIC_HEAT);
-        }
+        check.quantity("specific_heat", self.specific_heat, limits::SPECIFIC_HEAT);
         if let Some(eos) = &self.equation_of_state {
             eos.check(&mut check.within("equation_of_state"));
         }
@@ -49,9 +47,11 @@ impl Material {
         if let Some(fracture) = &self.fracture {
             fracture.check(&mut check.within("fracture"), self.youngs_modulus);
         }
-        if let Some(hardness) = self.brinell_hardness {
-            check.number("brinell_hardness", hardness, limits::BRINELL_HARDNESS);
-        }
+        check.number(
+            "brinell_hardness",
+            self.brinell_hardness,
+            limits::BRINELL_HARDNESS,
+        );
         check.quantity(
             "room_temperature",
             self.room_temperature,

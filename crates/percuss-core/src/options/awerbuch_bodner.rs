@@ -27,9 +27,7 @@ impl AwerbuchBodnerOptions {
             ("crushing_stress", self.crushing_stress),
             ("shear_strength", self.shear_strength),
         ] {
-            if let Some(stress) = stress {
-                check.quantity(key, stress, limits::FLOW_STRESS);
-            }
+            check.quantity(key, stress, limits::FLOW_STRESS);
         }
     }
 }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     ArtificialViscosity,
+    common::{OF_TWO, check_end, check_viscosity, refuse_without_heating, refuse_without_target},
     defaults::{MAX_STEPS, defaults},
 };
 use crate::{
@@ -185,33 +186,18 @@ impl AxiOptions {
             ("failure_strain", self.failure_strain, STRAIN),
             ("erosion_strain", self.erosion_strain, STRAIN),
         ] {
-            if let Some(number) = number {
-                check.number(key, number, limits);
-            }
+            check.number(key, number, limits);
         }
         for (key, length) in [
             ("target_radius", self.target_radius),
             ("target_depth", self.target_depth),
             ("band_width", self.band_width),
         ] {
-            if let Some(length) = length {
-                check.quantity(key, length, limits::LENGTH);
-            }
+            check.quantity(key, length, limits::LENGTH);
         }
-        if let Some(viscosity) = self.artificial_viscosity {
-            let mut check = check.within("artificial_viscosity");
-            check.number("linear", viscosity.linear, limits::VISCOSITY);
-            check.number("quadratic", viscosity.quadratic, limits::VISCOSITY);
-        }
-        if let Some(strength) = self.spall_strength {
-            check.quantity("spall_strength", strength, limits::FLOW_STRESS);
-        }
-        if let Some(time) = self.end_time {
-            check.quantity("end_time", time, limits::TIME);
-        }
-        if self.max_steps == Some(0) {
-            check.fail("max_steps", "0 steps is out of range", "allowed: 1 or more");
-        }
+        check_viscosity(check, self.artificial_viscosity);
+        check.quantity("spall_strength", self.spall_strength, limits::FLOW_STRESS);
+        check_end(check, self.end_time, self.max_steps);
         self.check_effect(check, target);
     }
 
@@ -224,35 +210,22 @@ impl AxiOptions {
             ("contact", self.contact.is_some()),
             ("friction", self.friction.is_some()),
         ];
-        for (key, _) in of_target
-            .iter()
-            .filter(|(_, given)| *given && !target.is_solid())
-        {
-            check.fail(
-                key,
-                format!("a rigid wall or a constant pressure has no `{key}`"),
-                "remove the key",
-            );
+        if !target.is_solid() {
+            refuse_without_target(check, &of_target);
         }
-        let of_two = "remove one of the two keys";
+        refuse_without_heating(check, self.heat_fraction, self.adiabatic_heating);
         let without_effect = [
             (
                 "friction",
                 self.friction.is_some() && self.contact == Some(ContactKind::Sticking),
                 "with contact `sticking`",
-                of_two,
-            ),
-            (
-                "heat_fraction",
-                self.heat_fraction.is_some() && self.adiabatic_heating == Some(false),
-                "without `adiabatic_heating`",
-                of_two,
+                OF_TWO,
             ),
             (
                 "spall_strength",
                 self.spall_strength.is_some() && self.spall == Some(false),
                 "with `spall = false`",
-                of_two,
+                OF_TWO,
             ),
             (
                 "band_width",

@@ -7,6 +7,7 @@ use super::{
     chain_enums::{
         ArtificialViscosity, ErosionCriterion, Kinematics, Scheme, TargetResistanceModel,
     },
+    common::{OF_TWO, check_end, check_viscosity, refuse_without_heating, refuse_without_target},
     number_or_name::{ConstraintFactor, ErosionStrain, NumberOrName},
     published_options::{ContactSpring, Interface, PublishedBorderShear, PublishedOptions},
     shear_band::{BorderShearLaw, ShearBandOptions},
@@ -77,8 +78,6 @@ pub struct ChainOptions {
     pub published: Option<PublishedOptions>,
 }
 
-const OF_TWO: &str = "remove one of the two keys";
-
 impl ChainOptions {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>, target: &Target) {
@@ -125,24 +124,15 @@ impl ChainOptions {
             ),
         ];
         for (key, number, limits) in numbers {
-            if let Some(number) = number {
-                check.number(key, number, limits);
-            }
+            check.number(key, number, limits);
         }
-        if let Some(viscosity) = self.artificial_viscosity {
-            let mut check = check.within("artificial_viscosity");
-            check.number("linear", viscosity.linear, limits::VISCOSITY);
-            check.number("quadratic", viscosity.quadratic, limits::VISCOSITY);
-        }
-        if let Some(time) = self.end_time {
-            check.quantity("end_time", time, limits::TIME);
-        }
-        if self.max_steps == Some(0) {
-            check.fail("max_steps", "0 steps is out of range", "allowed: 1 or more");
-        }
-        if let Some(mass) = self.published().target_mass {
-            check.quantity("published.target_mass", mass, limits::MASS);
-        }
+        check_viscosity(check, self.artificial_viscosity);
+        check_end(check, self.end_time, self.max_steps);
+        check.quantity(
+            "published.target_mass",
+            self.published().target_mass,
+            limits::MASS,
+        );
         self.check_failure(check);
         self.check_layers(check, target);
         self.check_scheme(check);
@@ -157,38 +147,20 @@ impl ChainOptions {
             ("border_shear", self.border_shear.is_some()),
             ("erosion_criterion", self.erosion_criterion.is_some()),
         ];
-        for (key, _) in column_only
-            .iter()
-            .filter(|(_, given)| *given && !target_is_solid)
-        {
-            check.fail(
-                key,
-                format!("a rigid wall or a constant pressure has no `{key}`"),
-                "remove the key",
-            );
+        if !target_is_solid {
+            refuse_without_target(check, &column_only);
         }
         if self.erosion_criterion() == ErosionCriterion::Tate {
-            for (key, given) in [
+            let of_strain = [
                 ("kinematics", self.kinematics.is_some()),
                 ("erosion_strain", self.erosion_strain.is_some()),
                 ("border_shear", self.border_shear.is_some()),
-            ] {
-                if given {
-                    check.fail(
-                        key,
-                        format!("`{key}` has no effect with the erosion criterion `tate`"),
-                        OF_TWO,
-                    );
-                }
-            }
+            ];
+            let message =
+                |key: &str| format!("`{key}` has no effect with the erosion criterion `tate`");
+            check.refuse(&of_strain, message, OF_TWO);
         }
-        if self.heat_fraction.is_some() && self.adiabatic_heating == Some(false) {
-            check.fail(
-                "heat_fraction",
-                "`heat_fraction` has no effect without `adiabatic_heating`",
-                OF_TWO,
-            );
-        }
+        refuse_without_heating(check, self.heat_fraction, self.adiabatic_heating);
     }
 
     /// Reports keys that a cone has no use for.
@@ -201,16 +173,14 @@ impl ChainOptions {
             TargetResistanceModel::ExpandingCavity => self.cavity_lacks().collect(),
             _ => self.column_keys().to_vec(),
         };
-        for (key, _) in lacks.iter().filter(|(_, differs)| *differs) {
-            check.fail(
-                key,
-                format!(
-                    "`{key}` belongs to a column: the target resistance model `{}` has none",
-                    resistance.name()
-                ),
-                "remove the key, or use target_resistance = \"column\"",
-            );
-        }
+        let message = |key: &str| {
+            format!(
+                "`{key}` belongs to a column: the target resistance model `{}` has none",
+                resistance.name()
+            )
+        };
+        let remedy = "remove the key, or use target_resistance = \"column\"";
+        check.refuse(&lacks, message, remedy);
         if target.column_diameter.is_some() {
             check.fail(
                 "target_resistance",
@@ -283,13 +253,9 @@ impl ChainOptions {
         ];
         match self.scheme {
             Scheme::Published => {
-                for (key, _) in conservative_only.iter().filter(|(_, given)| *given) {
-                    check.fail(
-                        key,
-                        format!("scheme `published` has no `{key}`"),
-                        "remove the key, or use scheme = \"conservative\"",
-                    );
-                }
+                let message = |key: &str| format!("scheme `published` has no `{key}`");
+                let remedy = "remove the key, or use scheme = \"conservative\"";
+                check.refuse(&conservative_only, message, remedy);
                 let readings = published.unwrap_or_default();
                 if border_shear.is_some() && readings.border_shear == PublishedBorderShear::None {
                     check.fail(

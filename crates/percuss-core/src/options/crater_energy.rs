@@ -23,15 +23,11 @@ pub struct CraterEnergyOptions {
 impl CraterEnergyOptions {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(resistance) = self.resistance {
-            check.quantity("resistance", resistance, limits::CONTACT_PRESSURE);
-        }
-        if let Some(ratio) = self.crater_to_projectile_diameter {
-            check.number(
-                "crater_to_projectile_diameter",
-                ratio,
-                limits::CRATER_DIAMETER,
-            );
-        }
+        check.quantity("resistance", self.resistance, limits::CONTACT_PRESSURE);
+        check.number(
+            "crater_to_projectile_diameter",
+            self.crater_to_projectile_diameter,
+            limits::CRATER_DIAMETER,
+        );
     }
 }

@@ -39,9 +39,7 @@ impl EnergyBalanceOptions {
             ("projectile_strength", self.projectile_strength),
             ("target_strength", self.target_strength),
         ] {
-            if let Some(value) = value {
-                check.quantity(key, value, limits::FLOW_STRESS);
-            }
+            check.quantity(key, value, limits::FLOW_STRESS);
         }
     }
 }

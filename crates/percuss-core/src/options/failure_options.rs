@@ -3,6 +3,7 @@
 use super::{
     chain::ChainOptions,
     chain_enums::{ErosionCriterion, TargetResistanceModel},
+    common::OF_TWO,
 };
 use crate::{
     check::{Check, limits},
@@ -18,19 +19,21 @@ impl ChainOptions {
                 check.fail(
                     "failure",
                     "the erosion criterion `tate` holds the target in place: nothing of it can separate",
-                    "remove one of the two keys",
+                    OF_TWO,
                 );
             }
         }
-        if let Some(energy) = self.fracture_energy {
-            check.quantity("fracture_energy", energy, limits::FRACTURE_ENERGY);
-            if self.failure.is_none() {
-                check.fail(
-                    "fracture_energy",
-                    "`fracture_energy` has no effect without `failure`: nothing parts",
-                    "add `failure`, for example failure = { spall = { strength = \"1.5 GPa\" } }",
-                );
-            }
+        check.quantity(
+            "fracture_energy",
+            self.fracture_energy,
+            limits::FRACTURE_ENERGY,
+        );
+        if self.fracture_energy.is_some() && self.failure.is_none() {
+            check.fail(
+                "fracture_energy",
+                "`fracture_energy` has no effect without `failure`: nothing parts",
+                "add `failure`, for example failure = { spall = { strength = \"1.5 GPa\" } }",
+            );
         }
     }
 

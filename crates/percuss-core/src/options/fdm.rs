@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     ArtificialViscosity, ChainOptions, ConstraintFactor,
+    common::{check_end, check_viscosity, refuse_without_target},
     defaults::{MAX_STEPS, defaults},
     number_or_name::NumberOrName,
 };
@@ -99,9 +100,6 @@ impl FdmOptions {
     };
 }
 
-/// Limits of a spall strength given by itself [Pa].
-const SPALL_STRENGTH: crate::check::Limits = limits::FLOW_STRESS;
-
 impl FdmOptions {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>, target: &Target) {
@@ -124,24 +122,11 @@ impl FdmOptions {
             ("border_shear", self.border_shear, limits::BORDER_SHEAR),
             ("courant", self.courant, limits::COURANT),
         ] {
-            if let Some(number) = number {
-                check.number(key, number, limits);
-            }
+            check.number(key, number, limits);
         }
-        if let Some(viscosity) = self.artificial_viscosity {
-            let mut check = check.within("artificial_viscosity");
-            check.number("linear", viscosity.linear, limits::VISCOSITY);
-            check.number("quadratic", viscosity.quadratic, limits::VISCOSITY);
-        }
-        if let Some(strength) = self.spall_strength {
-            check.quantity("spall_strength", strength, SPALL_STRENGTH);
-        }
-        if let Some(time) = self.end_time {
-            check.quantity("end_time", time, limits::TIME);
-        }
-        if self.max_steps == Some(0) {
-            check.fail("max_steps", "0 steps is out of range", "allowed: 1 or more");
-        }
+        check_viscosity(check, self.artificial_viscosity);
+        check.quantity("spall_strength", self.spall_strength, limits::FLOW_STRESS);
+        check_end(check, self.end_time, self.max_steps);
         self.check_effect(check, target_is_solid);
     }
 
@@ -156,24 +141,12 @@ impl FdmOptions {
             Geometry::Rod => (&spall[..], Geometry::Rod),
             Geometry::Planar => (&column[..], Geometry::Planar),
         };
-        for (key, _) in ignored.iter().filter(|(_, given)| *given) {
-            check.fail(
-                key,
-                format!("geometry `{}` has no `{key}`", geometry.name()),
-                "remove the key, or change `geometry`",
-            );
-        }
-        let of_target = [("target_elements", self.target_elements.is_some())];
-        for (key, _) in of_target
-            .iter()
-            .chain(&column)
-            .filter(|(_, given)| *given && !target_is_solid)
-        {
-            check.fail(
-                key,
-                format!("a rigid wall or a constant pressure has no `{key}`"),
-                "remove the key",
-            );
+        let message = |key: &str| format!("geometry `{}` has no `{key}`", geometry.name());
+        check.refuse(ignored, message, "remove the key, or change `geometry`");
+        if !target_is_solid {
+            let of_target = [("target_elements", self.target_elements.is_some())];
+            refuse_without_target(check, &of_target);
+            refuse_without_target(check, &column);
         }
     }
 

@@ -70,9 +70,7 @@ impl ForrestalOptions {
             ("friction", self.friction, limits::FRICTION),
         ];
         for (key, number, limits) in numbers {
-            if let Some(number) = number {
-                check.number(key, number, limits);
-            }
+            check.number(key, number, limits);
         }
         if let Some(stress) = self.yield_stress {
             check.quantity("yield_stress", stress, limits::FLOW_STRESS);

@@ -29,11 +29,11 @@ defaults! { ForrestalConcreteOptions, concrete_in_schema {
 impl ForrestalConcreteOptions {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(s) = self.s {
-            check.number("s", s, limits::CONCRETE_FACTOR);
-        }
-        if let Some(k) = self.crater_depth_to_diameter {
-            check.number("crater_depth_to_diameter", k, limits::CRATER_DEPTH);
-        }
+        check.number("s", self.s, limits::CONCRETE_FACTOR);
+        check.number(
+            "crater_depth_to_diameter",
+            self.crater_depth_to_diameter,
+            limits::CRATER_DEPTH,
+        );
     }
 }

@@ -25,14 +25,12 @@ pub struct LambertJonasOptions {
 impl LambertJonasOptions {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(limit) = self.ballistic_limit {
-            check.quantity("ballistic_limit", limit, limits::IMPACT_VELOCITY);
-        }
-        if let Some(a) = self.a {
-            check.number("a", a, limits::RESIDUAL_FACTOR);
-        }
-        if let Some(p) = self.p {
-            check.number("p", p, limits::RESIDUAL_EXPONENT);
-        }
+        check.quantity(
+            "ballistic_limit",
+            self.ballistic_limit,
+            limits::IMPACT_VELOCITY,
+        );
+        check.number("a", self.a, limits::RESIDUAL_FACTOR);
+        check.number("p", self.p, limits::RESIDUAL_EXPONENT);
     }
 }

@@ -21,8 +21,10 @@ pub struct LanzOdermattOptions {
 impl LanzOdermattOptions {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(hardness) = self.target_hardness {
-            check.number("target_hardness", hardness, limits::BRINELL_HARDNESS);
-        }
+        check.number(
+            "target_hardness",
+            self.target_hardness,
+            limits::BRINELL_HARDNESS,
+        );
     }
 }

@@ -5,6 +5,7 @@ mod axi;
 mod chain;
 mod chain_defaults;
 mod chain_enums;
+mod common;
 mod constraint_factor;
 mod crater_energy;
 mod defaults;

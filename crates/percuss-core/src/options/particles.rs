@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     ArtificialViscosity,
     axi::Eos,
+    common::{OF_TWO, check_end, check_viscosity, refuse_without_heating, refuse_without_target},
     defaults::{MAX_STEPS, defaults},
 };
 use crate::{
@@ -254,9 +255,7 @@ impl ParticlesOptions {
             ("spacing", self.spacing, limits::LENGTH),
             ("width", self.width, limits::LENGTH),
         ] {
-            if let Some(length) = length {
-                check.quantity(key, length, limits);
-            }
+            check.quantity(key, length, limits);
         }
         for (key, number, limits) in [
             ("courant", self.courant, COURANT),
@@ -266,15 +265,9 @@ impl ParticlesOptions {
             ("friction", self.friction, FRICTION),
             ("heat_fraction", self.heat_fraction, limits::HEAT_FRACTION),
         ] {
-            if let Some(number) = number {
-                check.number(key, number, limits);
-            }
+            check.number(key, number, limits);
         }
-        if let Some(viscosity) = self.artificial_viscosity {
-            let mut check = check.within("artificial_viscosity");
-            check.number("linear", viscosity.linear, limits::VISCOSITY);
-            check.number("quadratic", viscosity.quadratic, limits::VISCOSITY);
-        }
+        check_viscosity(check, self.artificial_viscosity);
         self.check_formulation(check);
         match self.contact() {
             ParticleContact::Hertz => self.check_balls(check),
@@ -283,18 +276,9 @@ impl ParticlesOptions {
                 self.check_space(check);
             }
         }
-        if let Some(time) = self.end_time {
-            check.quantity("end_time", time, limits::TIME);
-        }
-        if self.max_steps == Some(0) {
-            check.fail("max_steps", "0 steps is out of range", "allowed: 1 or more");
-        }
-        if self.width.is_some() && !target.is_solid() {
-            check.fail(
-                "width",
-                "a rigid wall or a constant pressure has no `width`",
-                "remove the key",
-            );
+        check_end(check, self.end_time, self.max_steps);
+        if !target.is_solid() {
+            refuse_without_target(check, &[("width", self.width.is_some())]);
         }
         self.check_outline(check, target);
         self.check_notches(check);
@@ -303,22 +287,19 @@ impl ParticlesOptions {
     /// Reports keys without effect on springs, or on particles with a stress.
     fn check_formulation(&self, check: &mut Check<'_>) {
         if self.formulation() == Formulation::Springs {
-            for (key, given) in [
+            let of_stress = [
                 ("equation_of_state", self.equation_of_state.is_some()),
                 ("artificial_viscosity", self.artificial_viscosity.is_some()),
                 ("rate_effects", self.rate_effects.is_some()),
                 ("adiabatic_heating", self.adiabatic_heating.is_some()),
                 ("heat_fraction", self.heat_fraction.is_some()),
-            ] {
-                if given {
-                    let message = format!("`{key}` has no effect: springs are elastic");
-                    let remedy = "remove the key, or give `formulation = \"particle-stress\"`";
-                    check.fail(key, message, remedy);
-                }
-            }
+            ];
+            let message = |key: &str| format!("`{key}` has no effect: springs are elastic");
+            let remedy = "remove the key, or give `formulation = \"particle-stress\"`";
+            check.refuse(&of_stress, message, remedy);
             return;
         }
-        for (key, given) in [
+        let of_springs = [
             ("fracture", self.fracture == Some(true)),
             ("notches", self.notches.is_some()),
             ("softening", self.softening.is_some()),
@@ -326,15 +307,14 @@ impl ParticlesOptions {
             ("restitution", self.restitution.is_some()),
             ("friction", self.friction.is_some()),
             ("contact", self.contact() == ParticleContact::Hertz),
-        ] {
-            if given {
-                let message = format!(
-                    "`{key}` is not for `formulation = \"particle-stress\"`: nothing breaks, and the contact has no friction"
-                );
-                let remedy = "remove the key, or give `formulation = \"springs\"`";
-                check.fail(key, message, remedy);
-            }
-        }
+        ];
+        let message = |key: &str| {
+            format!(
+                "`{key}` is not for `formulation = \"particle-stress\"`: nothing breaks, and the contact has no friction"
+            )
+        };
+        let remedy = "remove the key, or give `formulation = \"springs\"`";
+        check.refuse(&of_springs, message, remedy);
         if self.space() != Space::PlaneStrain {
             let message = format!(
                 "`formulation = \"particle-stress\"` is for plane strain, and not for {}",
@@ -346,15 +326,12 @@ impl ParticlesOptions {
                 "allowed: \"plane-strain\"; or remove the key",
             );
         }
-        if self.heat_fraction.is_some() && self.adiabatic_heating == Some(false) {
-            let message = "`heat_fraction` has no effect without `adiabatic_heating`";
-            check.fail("heat_fraction", message, "remove one of the two keys");
-        }
+        refuse_without_heating(check, self.heat_fraction, self.adiabatic_heating);
     }
 
     /// Reports keys that balls of one particle do not have.
     fn check_balls(&self, check: &mut Check<'_>) {
-        for (key, given) in [
+        let of_lattices = [
             ("spacing", self.spacing.is_some()),
             ("width", self.width.is_some()),
             ("notches", self.notches.is_some()),
@@ -364,14 +341,11 @@ impl ParticlesOptions {
             ("fracture", self.fracture.is_some()),
             ("softening", self.softening.is_some()),
             ("failure_criterion", self.failure_criterion.is_some()),
-        ] {
-            if given {
-                let message = format!(
-                    "`{key}` has no effect: with `contact = \"hertz\"` every body is one particle"
-                );
-                check.fail(key, message, "remove one of the two keys");
-            }
-        }
+        ];
+        let message = |key: &str| {
+            format!("`{key}` has no effect: with `contact = \"hertz\"` every body is one particle")
+        };
+        check.refuse(&of_lattices, message, OF_TWO);
         if self
             .space
             .is_some_and(|space| space != Space::ThreeDimensional)
@@ -458,7 +432,7 @@ impl ParticlesOptions {
                 format!("allowed: \"{own}\", \"irregular\""),
             );
         }
-        for (key, given) in [
+        let of_planes = [
             ("outline", self.outline.is_some()),
             ("notches", self.notches.is_some()),
             (
@@ -469,12 +443,13 @@ impl ParticlesOptions {
                 "friction",
                 self.friction.is_some_and(|friction| friction != 0.0),
             ),
-        ] {
-            if given && in_space {
-                let message =
-                    format!("`{key}` is of plane bodies: in three dimensions there is none yet");
-                check.fail(key, message, "remove the key, or give another `space`");
-            }
+        ];
+        if in_space {
+            let message = |key: &str| {
+                format!("`{key}` is of plane bodies: in three dimensions there is none yet")
+            };
+            let remedy = "remove the key, or give another `space`";
+            check.refuse(&of_planes, message, remedy);
         }
     }
 
@@ -486,31 +461,26 @@ impl ParticlesOptions {
                 fracture != Some(false) && self.formulation() == Formulation::Springs
             }
         };
-        for (key, given) in [
-            ("amplitude", self.amplitude.is_some()),
-            ("seed", self.seed.is_some()),
-        ] {
-            if given && !irregular {
-                check.fail(
-                    key,
-                    format!("`{key}` has no effect: the packing is regular"),
-                    "remove the key, or give `packing = \"irregular\"`",
-                );
-            }
+        if !irregular {
+            let of_irregular = [
+                ("amplitude", self.amplitude.is_some()),
+                ("seed", self.seed.is_some()),
+            ];
+            let message = |key: &str| format!("`{key}` has no effect: the packing is regular");
+            let remedy = "remove the key, or give `packing = \"irregular\"`";
+            check.refuse(&of_irregular, message, remedy);
         }
-        for (key, given) in [
-            ("softening", self.softening.is_some()),
-            ("failure_criterion", self.failure_criterion.is_some()),
-            ("restitution", self.restitution.is_some()),
-            ("friction", self.friction.is_some()),
-        ] {
-            if given && self.fracture == Some(false) {
-                check.fail(
-                    key,
-                    format!("`{key}` has no effect: `fracture = false`, and no bond breaks"),
-                    "remove one of the two keys",
-                );
-            }
+        if self.fracture == Some(false) {
+            let of_fracture = [
+                ("softening", self.softening.is_some()),
+                ("failure_criterion", self.failure_criterion.is_some()),
+                ("restitution", self.restitution.is_some()),
+                ("friction", self.friction.is_some()),
+            ];
+            let message = |key: &str| {
+                format!("`{key}` has no effect: `fracture = false`, and no bond breaks")
+            };
+            check.refuse(&of_fracture, message, OF_TWO);
         }
     }
 }

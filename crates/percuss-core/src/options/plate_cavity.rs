@@ -43,8 +43,6 @@ impl PlateCavityOptions {
 
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(inertia) = self.inertia {
-            check.number("inertia", inertia, limits::INERTIA_COEFFICIENT);
-        }
+        check.number("inertia", self.inertia, limits::INERTIA_COEFFICIENT);
     }
 }

@@ -21,8 +21,6 @@ pub struct PluggingOptions {
 impl PluggingOptions {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(strength) = self.shear_strength {
-            check.quantity("shear_strength", strength, limits::FLOW_STRESS);
-        }
+        check.quantity("shear_strength", self.shear_strength, limits::FLOW_STRESS);
     }
 }

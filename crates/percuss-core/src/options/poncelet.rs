@@ -23,11 +23,7 @@ pub struct PonceletOptions {
 impl PonceletOptions {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(resistance) = self.resistance {
-            check.quantity("resistance", resistance, limits::CONTACT_PRESSURE);
-        }
-        if let Some(drag) = self.drag {
-            check.number("drag", drag, limits::DRAG);
-        }
+        check.quantity("resistance", self.resistance, limits::CONTACT_PRESSURE);
+        check.number("drag", self.drag, limits::DRAG);
     }
 }

@@ -35,8 +35,6 @@ defaults! { PowerBalanceOptions, power_balance_in_schema {
 impl PowerBalanceOptions {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(fraction) = self.heat_fraction {
-            check.number("heat_fraction", fraction, limits::HEAT_FRACTION);
-        }
+        check.number("heat_fraction", self.heat_fraction, limits::HEAT_FRACTION);
     }
 }

@@ -21,8 +21,10 @@ pub struct RechtIpsonOptions {
 impl RechtIpsonOptions {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(limit) = self.ballistic_limit {
-            check.quantity("ballistic_limit", limit, limits::IMPACT_VELOCITY);
-        }
+        check.quantity(
+            "ballistic_limit",
+            self.ballistic_limit,
+            limits::IMPACT_VELOCITY,
+        );
     }
 }

@@ -58,20 +58,15 @@ impl ChainOptions {
             band.check(&mut check.within("shear_band"));
         }
         if self.border_shear_law() == BorderShearLaw::Friction {
-            for (key, given) in [
+            let of_bands = [
                 ("shear_band", self.shear_band.is_some()),
                 ("dishing", self.dishing()),
-            ] {
-                if given {
-                    check.fail(
-                        key,
-                        format!(
-                            "`{key}` has no effect where border shear is friction, the default"
-                        ),
-                        "add border_shear_law = \"shear-band\", or remove the key",
-                    );
-                }
-            }
+            ];
+            let message = |key: &str| {
+                format!("`{key}` has no effect where border shear is friction, the default")
+            };
+            let remedy = "add border_shear_law = \"shear-band\", or remove the key";
+            check.refuse(&of_bands, message, remedy);
             return;
         }
         let conflicts = [
@@ -129,9 +124,7 @@ impl ChainOptions {
 
 impl ShearBandOptions {
     fn check(&self, check: &mut Check<'_>) {
-        if let Some(width) = self.width {
-            check.quantity("width", width, limits::BAND_WIDTH);
-        }
+        check.quantity("width", self.width, limits::BAND_WIDTH);
         if let Some(strain) = self.failure_strain {
             check.number("failure_strain", strain, limits::BAND_STRAIN);
             if self.failure.is_some() {

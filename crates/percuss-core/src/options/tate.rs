@@ -29,9 +29,7 @@ impl TateOptions {
             ("projectile_strength", self.projectile_strength),
             ("target_resistance", self.target_resistance),
         ] {
-            if let Some(value) = value {
-                check.quantity(key, value, limits::FLOW_STRESS);
-            }
+            check.quantity(key, value, limits::FLOW_STRESS);
         }
     }
 }

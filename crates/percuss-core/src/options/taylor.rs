@@ -21,8 +21,10 @@ pub struct TaylorOptions {
 impl TaylorOptions {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(stress) = self.dynamic_yield_stress {
-            check.quantity("dynamic_yield_stress", stress, limits::FLOW_STRESS);
-        }
+        check.quantity(
+            "dynamic_yield_stress",
+            self.dynamic_yield_stress,
+            limits::FLOW_STRESS,
+        );
     }
 }

@@ -32,12 +32,8 @@ impl WalkerAndersonOptions {
             ("projectile_strength", self.projectile_strength),
             ("target_strength", self.target_strength),
         ] {
-            if let Some(value) = value {
-                check.quantity(key, value, limits::FLOW_STRESS);
-            }
+            check.quantity(key, value, limits::FLOW_STRESS);
         }
-        if let Some(radius) = self.crater_radius {
-            check.quantity("crater_radius", radius, limits::DIAMETER);
-        }
+        check.quantity("crater_radius", self.crater_radius, limits::DIAMETER);
     }
 }

@@ -30,11 +30,11 @@ defaults! { WilkinsGuinanOptions, wilkins_in_schema {
 impl WilkinsGuinanOptions {
     /// Reports values that are not allowed, each with its key, its allowed range and a remedy.
     pub fn check(&self, check: &mut Check<'_>, _: &Target) {
-        if let Some(stress) = self.dynamic_yield_stress {
-            check.quantity("dynamic_yield_stress", stress, limits::FLOW_STRESS);
-        }
-        if let Some(front) = self.front_to_length {
-            check.number("front_to_length", front, limits::FRONT);
-        }
+        check.quantity(
+            "dynamic_yield_stress",
+            self.dynamic_yield_stress,
+            limits::FLOW_STRESS,
+        );
+        check.number("front_to_length", self.front_to_length, limits::FRONT);
     }
 }

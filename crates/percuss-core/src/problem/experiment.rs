@@ -113,9 +113,11 @@ impl Experiment {
                 "give every quantity an `[[experiments]]` entry of its own",
             ),
         }
-        if let Some(velocity) = self.impact_velocity {
-            check.quantity("impact_velocity", velocity, limits::IMPACT_VELOCITY);
-        }
+        check.quantity(
+            "impact_velocity",
+            self.impact_velocity,
+            limits::IMPACT_VELOCITY,
+        );
         if self.source.0.iter().all(|key| key.trim().is_empty()) {
             check.fail(
                 "source",

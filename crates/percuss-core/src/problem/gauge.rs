@@ -23,9 +23,7 @@ pub struct HistoryOptions {
 impl HistoryOptions {
     /// Checks the values of the table.
     pub fn check(self, check: &mut Check<'_>) {
-        if let Some(interval) = self.interval {
-            check.quantity("interval", interval, limits::TIME);
-        }
+        check.quantity("interval", self.interval, limits::TIME);
     }
 
     /// Whether no key is given.

@@ -98,9 +98,7 @@ impl MeasuredTable {
                 "give it letters, or remove the key",
             );
         }
-        if let Some(time) = self.correlation_time {
-            check.quantity("correlation_time", time, CORRELATION_TIME);
-        }
+        check.quantity("correlation_time", self.correlation_time, CORRELATION_TIME);
         if let Some(SourceKeys(keys)) = &self.source
             && keys.iter().all(|key| key.trim().is_empty())
         {

@@ -160,9 +160,7 @@ impl Projectile {
                 "allowed: 0 deg; an impact at an angle to the struck face is `obliquity`, which the model `particles` computes",
             );
         }
-        if let Some(temperature) = self.temperature {
-            check.quantity("temperature", temperature, limits::TEMPERATURE);
-        }
+        check.quantity("temperature", self.temperature, limits::TEMPERATURE);
         match (self.length, self.mass) {
             (Some(length), None) => check.quantity("length", length, limits::LENGTH),
             (None, Some(mass)) => check.quantity("mass", mass, limits::MASS),

@@ -299,9 +299,7 @@ impl Layer {
                 );
             }
         }
-        if let Some(diameter) = self.column_diameter {
-            check.quantity("column_diameter", diameter, limits::DIAMETER);
-        }
+        check.quantity("column_diameter", self.column_diameter, limits::DIAMETER);
     }
 }
 
@@ -410,13 +408,9 @@ impl Target {
                 Thickness::SemiInfinite => {}
             }
             layer.check_joint(i == 0, &mut check);
-            if let Some(temperature) = layer.temperature {
-                check.quantity("temperature", temperature, limits::TEMPERATURE);
-            }
+            check.quantity("temperature", layer.temperature, limits::TEMPERATURE);
         }
-        if let Some(diameter) = self.column_diameter {
-            check.quantity("column_diameter", diameter, limits::DIAMETER);
-        }
+        check.quantity("column_diameter", self.column_diameter, limits::DIAMETER);
         if let Some(diameter) = self.plate_diameter {
             check.quantity("plate_diameter", diameter, limits::DIAMETER);
         } else if self.support.is_some() {
@@ -426,9 +420,11 @@ impl Target {
                 "add `plate_diameter`, or remove `support`",
             );
         }
-        if let Some(pressure) = self.constant_pressure {
-            check.quantity("constant_pressure", pressure, limits::CONTACT_PRESSURE);
-        }
+        check.quantity(
+            "constant_pressure",
+            self.constant_pressure,
+            limits::CONTACT_PRESSURE,
+        );
         if self.is_semi_infinite()
             && self
                 .back_face

@@ -129,6 +129,11 @@ pub fn go_on(flow: ControlFlow<()>, step: u64, time: f64) -> Result<(), Error> {
     }
 }
 
+/// The error that ends a study whose caller stops it between two runs.
+pub fn go_on_to_next_run(flow: ControlFlow<()>) -> Result<(), Error> {
+    go_on(flow, 0, 0.0)
+}
+
 impl std::fmt::Debug for Control<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Control")

@@ -26,7 +26,7 @@ use crate::{
 
 pub use checkpoint::CHECKPOINT_START;
 pub(crate) use control::go_on;
-pub use control::{Checkpoints, Control, OnFrame, Progress};
+pub use control::{Checkpoints, Control, OnFrame, Progress, go_on_to_next_run};
 pub use courant_retry::AttemptError;
 pub use estimate::{Estimate, time_in_words};
 pub use input_limit::InputLimit;

@@ -1,8 +1,9 @@
-//! Columns that hold where a plate would be plugged or pierced.
+//! Warnings of columns of target: where a plate would be plugged or pierced, of border shear, and of the mesh.
 
 use crate::{
     problem::RearFaceCondition,
     scenario::{Scenario, TargetBody},
+    units::significant,
 };
 
 /// Part of the thickness up to a free face from which on a target that holds is warned of.
@@ -37,4 +38,40 @@ pub fn pushed_column_warning(scenario: &Scenario, depth: Option<f64>) -> Option<
              a free face; {remedy}"
         )
     })
+}
+
+/// Warns that the border shear of a column decides its depth; the table has the coefficient.
+pub fn border_shear_warning(table: &str, coefficient: f64) -> Option<String> {
+    (coefficient > 0.0).then(|| {
+        format!(
+            "the result depends on the target resistance model (constraint factor and border shear C = {}): `{table}.border_shear = 0.0` \
+             gives the other end of the range",
+            significant(coefficient, 4)
+        )
+    })
+}
+
+/// Warns of a depth [m] below one `piece` of the mesh, of a size [m], or near the end of the column that stands for a semi-infinite target.
+pub fn column_mesh_warnings(
+    scenario: &Scenario,
+    depth: f64,
+    piece: &str,
+    size: f64,
+) -> impl Iterator<Item = String> {
+    let shallow = (depth > 0.0 && depth < size).then(|| {
+        format!(
+            "the depth ({} mm) is less than one target {piece} ({} mm): see `percuss converge`",
+            significant(depth * 1e3, 3),
+            significant(size * 1e3, 3)
+        )
+    });
+    let length = scenario.modelled_length();
+    let is_semi_infinite = scenario.layers().iter().any(|p| p.thickness.is_none());
+    let deep = (is_semi_infinite && depth > 0.75 * length).then(|| {
+        format!(
+            "the depth is close to the {} mm that stand for a semi-infinite target: give a thickness",
+            significant(length * 1e3, 3)
+        )
+    });
+    shallow.into_iter().chain(deep)
 }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::{
     material::tensile_strength,
     regime::{STRENGTH_STRAIN, at_least},
-    scenario::{Scenario, TargetBody},
+    scenario::Scenario,
     units::significant,
 };
 
@@ -134,15 +134,8 @@ impl Measure {
             }
             Self::ThicknessToDiameter => Some(scenario.target_thickness()? / rod.diameter),
             Self::StrengthToPlate => {
-                let TargetBody::Layers { layers, .. } = &scenario.target else {
-                    return None;
-                };
-                let [plate] = layers.as_slice() else {
-                    return None;
-                };
-                Some(
-                    rod.material.flow_stress(STRENGTH_STRAIN)? / tensile_strength(&plate.material)?,
-                )
+                let strength = rod.material.flow_stress(STRENGTH_STRAIN)?;
+                Some(strength / tensile_strength(&scenario.only_layer()?.material)?)
             }
             Self::ImpactSpeed => Some(scenario.impact_velocity),
             Self::Obliquity => Some(scenario.obliquity.to_degrees()),

@@ -41,17 +41,18 @@ pub fn values(axes: &[Axis], copula: Option<&Copula>, u: &[f64]) -> Vec<f64> {
     values
 }
 
+/// Name of the column of a key with values in a unit, in the manner of the other columns.
+pub fn column_name(key: &str, unit: &str) -> String {
+    let unit = unit.to_lowercase();
+    let words = unit.split(|c: char| !c.is_alphanumeric());
+    let words = words.filter(|word| !word.is_empty());
+    words.fold(key.to_owned(), |name, word| format!("{name}_{word}"))
+}
+
 impl Axis {
     /// Name of its column: the key, and the unit in the manner of the other columns.
     pub fn column(&self) -> String {
-        let mut name = self.key.clone();
-        let unit = self.unit.to_lowercase();
-        let words = unit.split(|c: char| !c.is_alphanumeric());
-        for word in words.filter(|word| !word.is_empty()) {
-            name.push('_');
-            name += word;
-        }
-        name
+        column_name(&self.key, &self.unit)
     }
 
     /// Its values in words, such as `normal, 230 ± 3 m/s`.

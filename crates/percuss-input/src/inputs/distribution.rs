@@ -70,8 +70,7 @@ impl Distribution {
                 deviation,
                 cut,
             } => {
-                let score = |x: f64| (x - mean) / deviation;
-                let z = truncated(u, score(cut.min), score(cut.max));
+                let z = truncated(u, self.score(cut.min), self.score(cut.max));
                 (mean + deviation * z).clamp(cut.min, cut.max)
             }
             Self::Lognormal {
@@ -79,8 +78,7 @@ impl Distribution {
                 deviation,
                 cut,
             } => {
-                let score = |x: f64| libm::log(x.max(0.0) / median) / deviation;
-                let z = truncated(u, score(cut.min), score(cut.max));
+                let z = truncated(u, self.score(cut.min), self.score(cut.max));
                 (median * libm::exp(deviation * z)).clamp(cut.min, cut.max)
             }
             Self::Uniform { from, to } => from + u * (to - from),
@@ -129,20 +127,10 @@ impl Distribution {
 
     /// Part of the distribution that its cut leaves.
     pub fn part_left(&self) -> f64 {
-        let between = |low: f64, high: f64| normal_probability(high) - normal_probability(low);
+        let below = |x: f64| normal_probability(self.score(x));
         match *self {
-            Self::Normal {
-                mean,
-                deviation,
-                cut,
-            } => between((cut.min - mean) / deviation, (cut.max - mean) / deviation),
-            Self::Lognormal {
-                median,
-                deviation,
-                cut,
-            } => {
-                let score = |x: f64| libm::log(x.max(0.0) / median) / deviation;
-                between(score(cut.min), score(cut.max))
+            Self::Normal { cut, .. } | Self::Lognormal { cut, .. } => {
+                below(cut.max) - below(cut.min)
             }
             Self::Uniform { .. } | Self::Triangular { .. } => 1.0,
         }
@@ -217,7 +205,7 @@ impl Distribution {
             } => (x - mean) / deviation,
             Self::Lognormal {
                 median, deviation, ..
-            } => libm::log(x / median) / deviation,
+            } => libm::log(x.max(0.0) / median) / deviation,
             Self::Uniform { .. } | Self::Triangular { .. } => 0.0,
         }
     }

@@ -12,8 +12,7 @@ mod quantity_literal;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use axis::Axis;
-pub use axis::{Values, values};
+pub use axis::{Axis, Values, column_name, values};
 pub use copula::Copula;
 pub use correlation::Correlation;
 pub use distribution::{Distribution, normal_probability, score};

@@ -2,7 +2,10 @@
 
 use std::{cell::RefCell, collections::VecDeque};
 
-use crate::material::{Material, cavity_expansion_pressure, plastic_cavity_pressure};
+use crate::{
+    bisection::bisected,
+    material::{Material, cavity_expansion_pressure, plastic_cavity_pressure},
+};
 
 /// Steps of the integration from the elastic-plastic interface to the cavity: the pressure is good to 1e-6 up to half of
 /// [`LARGEST_INTERFACE_SPEED`], to 1e-5 at it.
@@ -269,16 +272,8 @@ pub fn effective_yield_stress(material: &Material) -> Option<f64> {
     let pressure = cavity_expansion_pressure(material)?;
     let modulus = material.youngs_modulus.si();
     // Monotonic up to 2E/3, far beyond any yield stress.
-    let (mut low, mut high) = (0.0, 2.0 / 3.0 * modulus);
-    for _ in 0..100 {
-        let middle = f64::midpoint(low, high);
-        if plastic_cavity_pressure(middle, modulus) < pressure {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    Some(f64::midpoint(low, high))
+    let is_below = |yield_stress: f64| plastic_cavity_pressure(yield_stress, modulus) < pressure;
+    Some(bisected(0.0, 2.0 / 3.0 * modulus, 100, is_below))
 }
 
 #[cfg(test)]

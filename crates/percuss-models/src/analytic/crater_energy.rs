@@ -1,16 +1,15 @@
 //! Model `crater_energy`: the kinetic energy of the projectile pays for the volume of the crater.
 
 use super::{
-    deep_penetration::{
-        DeepPenetration, NOT_ONE_TARGET, at_rest, detail, never_yields, termination,
-    },
+    deep_penetration::{DeepPenetration, NOT_ONE_TARGET, at_rest, never_yields, termination},
     nose_load::NoseLoad,
     rigid_motion::RigidMotion,
 };
 use crate::{
     Error, Refusal, Scenario,
+    bisection::bisected,
     material::cavity_expansion_pressure,
-    outcome::{BandQuantity, Outcome, RunResult},
+    outcome::{BandQuantity, Detail, Outcome, RunResult},
     regime::{ProjectileRegime, Regime, STRENGTH_STRAIN, TargetKind},
     solver::{Control, Model},
     units::Pressure,
@@ -52,16 +51,7 @@ fn crater_speed(
     if excess(speed) >= 0.0 {
         return speed;
     }
-    let (mut low, mut high) = (0.0, speed);
-    for _ in 0..80 {
-        let middle = f64::midpoint(low, high);
-        if excess(middle) > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    f64::midpoint(low, high)
+    bisected(0.0, speed, 80, |bottom| excess(bottom) > 0.0)
 }
 
 /// Area of a crater over that of the rod that flows out in it: `1 + 2ρ_p(V−U)²/R`.
@@ -146,9 +136,9 @@ impl Model for CraterEnergy {
             }
         };
         result.details = vec![
-            detail("resistance", "MPa", resistance * 1e-6),
-            detail("crater diameter ratio", "", growth.sqrt()),
-            detail("crater volume", "cm3", energy / resistance * 1e6),
+            Detail::new("resistance", "MPa", resistance * 1e-6),
+            Detail::new("crater diameter ratio", "", growth.sqrt()),
+            Detail::new("crater volume", "cm3", energy / resistance * 1e6),
         ];
         let rigid_or_not = [regime].into_iter().chain(classified.neighbour);
         if classified.neighbour.is_some()

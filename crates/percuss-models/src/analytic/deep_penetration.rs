@@ -3,8 +3,8 @@
 use crate::{
     Refusal,
     material::Material,
-    outcome::{Detail, Outcome, RunResult, Termination},
-    scenario::{Rod, Scenario, TargetBody},
+    outcome::{Outcome, RunResult, Termination},
+    scenario::{Rod, Scenario},
 };
 
 use super::rigid_motion::Stop;
@@ -20,12 +20,7 @@ pub(super) struct DeepPenetration<'a> {
 impl<'a> DeepPenetration<'a> {
     /// `None` when the target is not of one material.
     pub(super) fn of(scenario: &'a Scenario) -> Option<Self> {
-        let TargetBody::Layers { layers, .. } = &scenario.target else {
-            return None;
-        };
-        let [plate] = layers.as_slice() else {
-            return None;
-        };
+        let plate = scenario.only_layer()?;
         Some(Self {
             rod: &scenario.projectile,
             speed: scenario.impact_velocity,
@@ -78,8 +73,4 @@ pub(super) fn termination(scenario: &Scenario) -> Termination {
     } else {
         Termination::NothingMoves
     }
-}
-
-pub(super) fn detail(name: &'static str, unit: &'static str, value: f64) -> Detail {
-    Detail { name, unit, value }
 }

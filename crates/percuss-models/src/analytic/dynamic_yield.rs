@@ -2,6 +2,7 @@
 
 use crate::{
     Refusal, Scenario,
+    bisection::bisect_ratio,
     material::{FlowState, Material},
     units::Pressure,
 };
@@ -107,22 +108,12 @@ pub(super) fn dynamic_yield(
         mean_flow_stress(&rod.material, rod_state.strain, rod_state.strain_rate)
             .map_or(f64::NAN, |mean| mean - stress)
     };
-    let (mut low, mut high) = (initial / FACTOR, initial * FACTOR);
+    let (low, high) = (initial / FACTOR, initial * FACTOR);
     if excess(low) <= 0.0 || excess(high) >= 0.0 {
         let reason = "no flow stress is its own mean over the strain that it leads to, as the projectile would melt";
         return Err(Refusal::new(reason).with_remedy(remedy()));
     }
-    for _ in 0..BISECTIONS {
-        let middle = (low * high).sqrt();
-        if middle <= low || middle >= high {
-            break;
-        }
-        if excess(middle) > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+    let (low, high) = bisect_ratio(low, high, BISECTIONS, |stress| excess(stress) > 0.0);
     Ok(reached((low * high).sqrt()))
 }
 

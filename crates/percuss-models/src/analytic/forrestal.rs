@@ -4,9 +4,7 @@ use std::borrow::Cow;
 
 use super::{
     cavity_expansion::CavityExpansion,
-    deep_penetration::{
-        DeepPenetration, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail, never_yields,
-    },
+    deep_penetration::{DeepPenetration, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, never_yields},
     nose_load::NoseLoad,
     rigid_motion::{RigidMotion, Stop},
 };
@@ -14,7 +12,7 @@ use crate::{
     Error, Refusal, Scenario,
     material::{MaterialClass, cavity_expansion_pressure},
     options::{Cavity, Entry, ForrestalOptions},
-    outcome::{Band, BandQuantity, RunResult},
+    outcome::{Band, BandQuantity, Detail, RunResult},
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
     units::{Pressure, Velocity, significant},
@@ -198,16 +196,16 @@ impl Model for Forrestal {
         let mut result = at_rest(self.name(), scheme, scenario, stop);
         let (strength_factor, inertia_factor) = nose.factors();
         result.details = vec![
-            detail("target resistance A Y", "MPa", resistance.strength * 1e-6),
-            detail("inertia coefficient B", "", resistance.coefficient),
-            detail("strength factor M", "", strength_factor),
-            detail("inertia factor N", "", inertia_factor),
+            Detail::new("target resistance A Y", "MPa", resistance.strength * 1e-6),
+            Detail::new("inertia coefficient B", "", resistance.coefficient),
+            Detail::new("strength factor M", "", strength_factor),
+            Detail::new("inertia factor N", "", inertia_factor),
         ];
         if let Some(yield_stress) = Self::yield_stress(&case, options) {
             let coefficient = resistance.strength / yield_stress;
             result
                 .details
-                .push(detail("strength coefficient A", "", coefficient));
+                .push(Detail::new("strength coefficient A", "", coefficient));
         }
         if given.is_none() && options.b.is_none() && case.speed > 0.0 {
             let other = match cavity {

@@ -2,12 +2,12 @@
 
 use std::{borrow::Cow, f64::consts::PI};
 
-use super::deep_penetration::{DeepPenetration, NOT_ONE_TARGET, at_rest, detail};
+use super::deep_penetration::{DeepPenetration, NOT_ONE_TARGET, at_rest};
 use super::rigid_motion::Stop;
 use crate::{
     Error, Refusal, Scenario,
     material::{MaterialClass, Strength, strength_factor},
-    outcome::{BandQuantity, RunResult},
+    outcome::{BandQuantity, Detail, RunResult},
     regime::{ProjectileRegime, TargetKind, nose_factor},
     solver::{Control, Model},
     units::significant,
@@ -163,11 +163,11 @@ impl Model for ForrestalConcrete {
         let mut result = at_rest(self.name(), "crater-and-tunnel", scenario, stop);
         let square = phases.tunnel_speed_squared(scenario.impact_velocity);
         result.details = vec![
-            detail("strength S f_c", "MPa", phases.strength * 1e-6),
-            detail("nose factor N", "", phases.nose),
-            detail("crater depth", "mm", phases.crater * phases.diameter * 1e3),
-            detail("speed into the tunnel", "m/s", square.max(0.0).sqrt()),
-            detail("depth to diameter", "", stop.depth / phases.diameter),
+            Detail::new("strength S f_c", "MPa", phases.strength * 1e-6),
+            Detail::new("nose factor N", "", phases.nose),
+            Detail::new("crater depth", "mm", phases.crater * phases.diameter * 1e3),
+            Detail::new("speed into the tunnel", "m/s", square.max(0.0).sqrt()),
+            Detail::new("depth to diameter", "", stop.depth / phases.diameter),
         ];
         let has_own_factor = scenario.options.forrestal_concrete.s.is_some();
         if !has_own_factor && phases.diameter > LARGER * CHECKED_DIAMETER {

@@ -1,9 +1,9 @@
 //! Model `hydrodynamic`: the depth that a rod without strength makes in a target without strength.
 
-use super::long_rod::{LongRod, NOT_ONE_TARGET, at_rest, detail};
+use super::long_rod::{LongRod, NOT_ONE_TARGET, at_rest};
 use crate::{
     Error, Refusal, Scenario,
-    outcome::{BandQuantity, Outcome, RunResult, Termination},
+    outcome::{BandQuantity, Detail, Outcome, RunResult, Termination},
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
     validity::{Measure, Outside, Range, ValidityDomain},
@@ -84,8 +84,8 @@ impl Model for Hydrodynamic {
         result.time_to_rest = Some(rod.length / (rod.speed - speed));
         result.end_time = result.time_to_rest;
         result.details = vec![
-            detail("steady P/L", "", ratio),
-            detail("penetration speed U", "m/s", speed),
+            Detail::new("steady P/L", "", ratio),
+            Detail::new("penetration speed U", "m/s", speed),
         ];
         Ok(result)
     }

@@ -81,12 +81,11 @@ impl Model for LambertJonas {
         let mut result = plate_result(self.name(), "", case.speed, limit.speed, residual);
         // What the model starts from is no prediction of it.
         result.ballistic_limit = None;
-        let detail = |name, value| Detail {
-            name,
-            unit: "",
-            value,
-        };
-        result.details = vec![limit.detail, detail("factor a", a), detail("exponent p", p)];
+        result.details = vec![
+            limit.detail,
+            Detail::new("factor a", "", a),
+            Detail::new("exponent p", "", p),
+        ];
         result.warnings.extend(limit.warnings);
         if options.a.is_none() || options.p.is_none() {
             result.warnings.push(

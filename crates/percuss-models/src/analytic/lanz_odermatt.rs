@@ -2,10 +2,10 @@
 
 use std::borrow::Cow;
 
-use super::long_rod::{LongRod, NOT_ONE_TARGET, detail};
+use super::long_rod::{LongRod, NOT_ONE_TARGET};
 use crate::{
     Error, Refusal, Scenario,
-    outcome::{BandQuantity, Outcome, RunResult, Termination},
+    outcome::{BandQuantity, Detail, Outcome, RunResult, Termination},
     regime::TargetKind,
     solver::{Control, Model},
     units::significant,
@@ -156,9 +156,9 @@ impl Model for LanzOdermatt {
         result.depth_of_penetration = Some(rod.length * ratio);
         result.residual_velocity = Some(0.0);
         result.details = vec![
-            detail("P/L", "", ratio),
-            detail("target hardness", "BHN", hardness),
-            detail(
+            Detail::new("P/L", "", ratio),
+            Detail::new("target hardness", "BHN", hardness),
+            Detail::new(
                 "smallest speed",
                 "m/s",
                 smallest_speed(rod.densities().0, hardness),

@@ -4,10 +4,10 @@ use crate::{
     Refusal,
     error::NumericalError,
     material::Material,
-    outcome::{Detail, Outcome, RunResult, Termination},
+    outcome::{Outcome, RunResult, Termination},
     problem::Nose,
     regime::{ProjectileRegime, Regime, STRENGTH_STRAIN},
-    scenario::{Scenario, TargetBody},
+    scenario::Scenario,
     units::{Pressure, significant},
 };
 
@@ -38,12 +38,7 @@ pub(super) struct LongRod<'a> {
 impl<'a> LongRod<'a> {
     /// `None` when the target is not of one material.
     pub(super) fn of(scenario: &'a Scenario) -> Option<Self> {
-        let TargetBody::Layers { layers, .. } = &scenario.target else {
-            return None;
-        };
-        let [plate] = layers.as_slice() else {
-            return None;
-        };
+        let plate = scenario.only_layer()?;
         let rod = &scenario.projectile;
         Some(Self {
             length: rod.mass / (rod.material.density.si() * rod.area()),
@@ -95,6 +90,12 @@ pub(super) fn erosion_ends([tail, tip, left]: [f64; 3], (speed, length): (f64, f
         .min(left / length - USED_UP)
 }
 
+/// Length [m] of a rod whose struck end has stopped before its tail came to rest: `L exp(−ρV²/2Y)`, the integral of `L dV/dt = −Y/ρ` and
+/// `dL/dt = −V`.
+pub(super) fn flattened(length: f64, tail: f64, density: f64, strength: f64) -> f64 {
+    length * (-0.5 * density * tail * tail / strength).exp()
+}
+
 /// Why a case is none of a rod of one metal on another.
 pub(super) const NOT_ONE_TARGET: &str = "it takes one layer of target";
 
@@ -139,10 +140,6 @@ pub(super) fn at_rest(
     result.depth_of_penetration = Some(depth);
     result.residual_velocity = Some(0.0);
     result
-}
-
-pub(super) fn detail(name: &'static str, unit: &'static str, value: f64) -> Detail {
-    Detail { name, unit, value }
 }
 
 /// The error of an integration that found no end.

@@ -1,6 +1,6 @@
 //! Axial load on a nose that pushes a material aside, frictionless or with Coulomb friction.
 
-use crate::problem::Nose;
+use crate::{bisection::bisect, problem::Nose};
 
 /// Steps along a nose.
 const STEPS: u32 = 400;
@@ -137,15 +137,8 @@ impl NoseLoad {
             let from = f64::from(i) * step;
             let next = self.advance(point, from, step, decay);
             if next.work >= until {
-                let (mut low, mut high) = (0.0, step);
-                for _ in 0..60 {
-                    let middle = f64::midpoint(low, high);
-                    if self.advance(point, from, middle, decay).work < until {
-                        low = middle;
-                    } else {
-                        high = middle;
-                    }
-                }
+                let is_below = |part: f64| self.advance(point, from, part, decay).work < until;
+                let (_, high) = bisect(0.0, step, 60, is_below);
                 let end = self.advance(point, from, high, decay);
                 return (end, true);
             }

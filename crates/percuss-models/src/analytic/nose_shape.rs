@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::gauss::integral;
-use crate::problem::Nose;
+use crate::{bisection::bisected, problem::Nose};
 
 /// Panels of the nose; one is exact for hemispheres and cones.
 const PANELS: u32 = 4;
@@ -49,16 +49,10 @@ pub(super) fn opened_volume(nose: Nose, diameter: f64, thickness: f64, tip: f64)
 /// Depth of the tip [m] at which this part of the hole through a plate is opened, 0 to 1.
 pub(super) fn tip_depth(nose: Nose, diameter: f64, thickness: f64, part: f64) -> f64 {
     let whole = PI * diameter * diameter / 4.0 * thickness;
-    let (mut low, mut high) = (0.0, thickness + nose.length(diameter));
-    for _ in 0..60 {
-        let middle = (low + high) / 2.0;
-        if opened_volume(nose, diameter, thickness, middle) < part * whole {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    (low + high) / 2.0
+    let deepest = thickness + nose.length(diameter);
+    bisected(0.0, deepest, 60, |tip| {
+        opened_volume(nose, diameter, thickness, tip) < part * whole
+    })
 }
 
 #[cfg(test)]

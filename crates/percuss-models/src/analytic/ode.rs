@@ -1,5 +1,7 @@
 //! Ordinary differential equations: an explicit embedded Runge–Kutta pair of order 5(4) that stops at an event.
 
+use crate::bisection::bisect;
+
 /// Nodes and weights of the pair \[dormand1980\]; its last stage is the first one of the next step.
 const STAGES: usize = 7;
 const WEIGHTS: [[f64; 6]; 6] = [
@@ -128,15 +130,8 @@ impl<const N: usize> Problem<'_, N> {
 
     /// Shortens the last step until it ends at the event.
     fn locate(&self, mut end: FinalState<N>, step: f64) -> FinalState<N> {
-        let (mut before, mut after) = (0.0, step);
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (before + after);
-            if (self.event)(&self.step(&end.state, middle).0) > 0.0 {
-                before = middle;
-            } else {
-                after = middle;
-            }
-        }
+        let is_before = |part: f64| (self.event)(&self.step(&end.state, part).0) > 0.0;
+        let (_, after) = bisect(0.0, step, BISECTIONS, is_before);
         end.state = self.step(&end.state, after).0;
         end.time += after;
         end.steps += 1;

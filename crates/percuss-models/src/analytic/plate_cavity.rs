@@ -239,12 +239,11 @@ impl Model for PlateCavity {
                 basis: "low: no inertia of the plate; high: the inertia of an unbounded plate",
             });
         }
-        let detail = |name, unit, value| Detail { name, unit, value };
         result.details = vec![
-            detail("resistance of the cavity", "MPa", passage.resistance * 1e-6),
-            detail("shape factor of the inertia", "", passage.shape),
-            detail("inertia number", "", passage.inertia),
-            detail("ballistic limit without inertia", "m/s", passage.slow_limit),
+            Detail::new("resistance of the cavity", "MPa", passage.resistance * 1e-6),
+            Detail::new("shape factor of the inertia", "", passage.shape),
+            Detail::new("inertia number", "", passage.inertia),
+            Detail::new("ballistic limit without inertia", "m/s", passage.slow_limit),
         ];
         result.warnings.extend(hard_plate(case.plate));
         Ok(result)

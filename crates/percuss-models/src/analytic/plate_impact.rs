@@ -7,7 +7,7 @@ use crate::{
     material::Material,
     outcome::{Outcome, RunResult, Termination},
     regime::{ProjectileRegime, Regime},
-    scenario::{Scenario, TargetBody},
+    scenario::Scenario,
 };
 
 /// Projectile and plate.
@@ -28,12 +28,7 @@ pub(super) struct PlateImpact<'a> {
 impl<'a> PlateImpact<'a> {
     /// The case of a case; `None` unless one plate is struck.
     pub fn of(scenario: &'a Scenario) -> Option<Self> {
-        let TargetBody::Layers { layers, .. } = &scenario.target else {
-            return None;
-        };
-        let [layer] = layers.as_slice() else {
-            return None;
-        };
+        let layer = scenario.only_layer()?;
         Some(Self {
             mass: scenario.projectile.mass,
             speed: scenario.impact_velocity,

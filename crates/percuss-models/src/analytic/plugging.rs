@@ -143,13 +143,12 @@ impl Model for Plugging {
                     .to_owned(),
             );
         }
-        let detail = |name, unit, value| Detail { name, unit, value };
         let ratio = case.thickness_to_diameter();
         result.details = vec![
-            detail("shear strength", "MPa", strength * 1e-6),
-            detail("work to shear the plug", "J", work),
-            detail("mass of the plug", "g", case.plug_mass() * 1e3),
-            detail(
+            Detail::new("shear strength", "MPa", strength * 1e-6),
+            Detail::new("work to shear the plug", "J", work),
+            Detail::new("mass of the plug", "g", case.plug_mass() * 1e3),
+            Detail::new(
                 "thickness over the limit of plugging",
                 "",
                 ratio / (3.0_f64.sqrt() / 2.0),

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::{
-    deep_penetration::{DeepPenetration, NOT_ONE_TARGET, at_rest, detail, never_yields},
+    deep_penetration::{DeepPenetration, NOT_ONE_TARGET, at_rest, never_yields},
     nose_load::NoseLoad,
     rigid_motion::RigidMotion,
 };
@@ -11,7 +11,7 @@ use crate::{
     Error, Refusal, Scenario,
     material::cavity_expansion_pressure,
     options::PonceletOptions,
-    outcome::{BandQuantity, RunResult},
+    outcome::{BandQuantity, Detail, RunResult},
     problem::Nose,
     regime::{ProjectileRegime, TargetKind, nose_factor},
     scenario::TargetBody,
@@ -98,8 +98,8 @@ impl Model for Poncelet {
         let stop = motion.embedded(scenario.impact_velocity);
         let mut result = at_rest(self.name(), "momentum-balance", scenario, stop);
         result.details = vec![
-            detail("resistance R", "MPa", strength * 1e-6),
-            detail("drag C rho", "kg/m3", inertia),
+            Detail::new("resistance R", "MPa", strength * 1e-6),
+            Detail::new("drag C rho", "kg/m3", inertia),
         ];
         Ok(result)
     }

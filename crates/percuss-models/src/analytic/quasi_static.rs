@@ -2,16 +2,14 @@
 
 use super::{
     cavity_expansion::CavityExpansion,
-    deep_penetration::{
-        DeepPenetration, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, detail, never_yields,
-    },
+    deep_penetration::{DeepPenetration, NEVER_YIELDS, NOT_ONE_TARGET, at_rest, never_yields},
     nose_load::NoseLoad,
     rigid_motion::RigidMotion,
 };
 use crate::{
     Error, Refusal, Scenario,
     material::cavity_expansion_pressure,
-    outcome::{Band, BandQuantity, RunResult},
+    outcome::{Band, BandQuantity, Detail, RunResult},
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
     units::significant,
@@ -89,10 +87,10 @@ impl Model for QuasiStatic {
         let mut result = at_rest(self.name(), "incompressible", scenario, stop);
         let dynamic = 1.5 * nose.factors().1 * case.target.density.si() * case.speed.powi(2);
         result.details = vec![
-            detail("quasi-static pressure", "MPa", pressure * 1e-6),
-            detail("compressible pressure", "MPa", compressible * 1e-6),
-            detail("effective yield stress", "MPa", body.yield_stress * 1e-6),
-            detail("dynamic to static pressure", "", dynamic / pressure),
+            Detail::new("quasi-static pressure", "MPa", pressure * 1e-6),
+            Detail::new("compressible pressure", "MPa", compressible * 1e-6),
+            Detail::new("effective yield stress", "MPa", body.yield_stress * 1e-6),
+            Detail::new("dynamic to static pressure", "", dynamic / pressure),
         ];
         if case.speed > 0.0 {
             result.band = Some(Band {

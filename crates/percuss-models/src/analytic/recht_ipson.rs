@@ -77,17 +77,16 @@ impl Model for RechtIpson {
         let mut result = plate_result(self.name(), "", case.speed, limit.speed, residual);
         // What the model starts from is no prediction of it.
         result.ballistic_limit = None;
-        let detail = |name, unit, value| Detail { name, unit, value };
         // Energy: ½mV² = capture + work + ½(m + m_p)V_r², and the work is what the limit leaves after the capture.
         result.details = vec![
             limit.detail,
-            detail("mass of the plug", "g", plug * 1e3),
-            detail(
+            Detail::new("mass of the plug", "g", plug * 1e3),
+            Detail::new(
                 "work that the plate takes",
                 "J",
                 0.5 * case.mass * factor * limit.speed.powi(2),
             ),
-            detail(
+            Detail::new(
                 "energy lost to the capture of the plug",
                 "J",
                 0.5 * case.mass * (1.0 - factor) * case.speed.powi(2),

@@ -3,13 +3,14 @@
 use std::borrow::Cow;
 
 use super::{
-    deep_penetration::{detail, termination},
+    deep_penetration::termination,
     dynamic_yield::{DynamicYield, Shortening, dynamic_yield},
     gauss::integral,
 };
 use crate::{
     Error, Refusal, Scenario,
-    outcome::{BandQuantity, Outcome, RunResult},
+    bisection::bisect_ratio,
+    outcome::{BandQuantity, Detail, Outcome, RunResult},
     regime::{ProjectileRegime, TargetKind, struck_end_strain},
     solver::{Control, Model},
     validity::{Measure, NoseKind, Outside, Range, ValidityDomain},
@@ -89,18 +90,12 @@ pub fn taylor_yield_stress(density: f64, speed: f64, length_ratio: f64) -> Optio
     if !valid {
         return None;
     }
-    let (mut low, mut high) = (1e-9_f64, 1e3_f64);
+    let (low, high) = (1e-9, 1e3);
     if TaylorRod::new(low).length < length_ratio || TaylorRod::new(high).length > length_ratio {
         return None;
     }
-    for _ in 0..BISECTIONS {
-        let middle = (low * high).sqrt();
-        if TaylorRod::new(middle).length > length_ratio {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+    let is_longer = |number: f64| TaylorRod::new(number).length > length_ratio;
+    let (low, high) = bisect_ratio(low, high, BISECTIONS, is_longer);
     Some(density * speed * speed / (low * high).sqrt())
 }
 
@@ -145,7 +140,7 @@ impl Model for Taylor {
         );
         if result.projectile_final_length != Some(rod.length) {
             result.projectile_final_diameter = Some(rod.diameter / (1.0 - shape.strain).sqrt());
-            result.details.push(detail(
+            result.details.push(Detail::new(
                 "undeformed rear",
                 "mm",
                 shape.rear * rod.length * 1e3,
@@ -200,14 +195,18 @@ pub(super) fn on_wall(
         result.residual_velocity = Some(0.0);
         result.projectile_final_length = Some(rod.length);
         result.projectile_final_mass = Some(rod.mass);
-        result.details = vec![detail("dynamic yield stress", "MPa", dynamic.stress * 1e-6)];
+        result.details = vec![Detail::new(
+            "dynamic yield stress",
+            "MPa",
+            dynamic.stress * 1e-6,
+        )];
         result
     };
     if yields {
         result.projectile_final_length = Some(rod.length * length_ratio);
         result.details.extend([
-            detail("mean strain", "", dynamic.strain),
-            detail("mean strain rate", "1/s", dynamic.strain_rate),
+            Detail::new("mean strain", "", dynamic.strain),
+            Detail::new("mean strain rate", "1/s", dynamic.strain_rate),
         ]);
         result.warnings = dynamic.warnings(&rod.material);
     } else {

@@ -3,13 +3,12 @@
 use std::borrow::Cow;
 
 use super::{
-    deep_penetration::detail,
     dynamic_yield::{DynamicYield, Shortening, dynamic_yield},
     taylor::{WALL, on_wall},
 };
 use crate::{
     Error, Refusal, Scenario,
-    outcome::RunResult,
+    outcome::{Detail, RunResult},
     solver::{Control, Model},
     validity::{FittedTo, ValidityDomain},
 };
@@ -99,7 +98,9 @@ impl Model for WilkinsGuinan {
         let length = wilkins_guinan_length(number, front);
         let mut result = on_wall(self.name(), "standing-front", scenario, &dynamic, length);
         let front_mm = front * rod.length * 1e3;
-        result.details.push(detail("front to wall", "mm", front_mm));
+        result
+            .details
+            .push(Detail::new("front to wall", "mm", front_mm));
         Ok(result)
     }
 }

@@ -63,11 +63,11 @@ pub(super) fn complete(run: &Axisymmetric<'_>, result: &mut RunResult, monitor: 
     };
     result.details = details(run, &shapes.crater);
     if remnant.is_some() {
-        result.details.push(Detail {
-            name: "debris of the projectile",
-            unit: "g",
-            value: (sums.mass - mass) * 1e3,
-        });
+        result.details.push(Detail::new(
+            "debris of the projectile",
+            "g",
+            (sums.mass - mass) * 1e3,
+        ));
     }
     result.shapes = Some(shapes);
     result.warnings = super::warnings::warnings(run, result);
@@ -112,42 +112,26 @@ pub(super) fn extremes(solver: &Grid) -> Extremes {
 
 fn details(run: &Axisymmetric<'_>, crater: &[[f64; 2]]) -> Vec<Detail> {
     let solver = &run.grid;
-    let mut details = vec![Detail {
-        name: "cell size",
-        unit: "mm",
-        value: solver.mesh.cell * 1e3,
-    }];
+    let mut details = vec![Detail::new("cell size", "mm", solver.mesh.cell * 1e3)];
     let present = solver.bodies.iter().flat_map(|body| body.particles());
-    details.push(Detail {
-        name: "particles",
-        unit: "",
-        value: present.filter(|particle| particle.mass > 0.0).count() as f64,
-    });
+    details.push(Detail::new(
+        "particles",
+        "",
+        present.filter(|particle| particle.mass > 0.0).count() as f64,
+    ));
     let Some(extent) = extent(run.scenario) else {
         return details;
     };
     let (mouth, volume) = mouth(crater, NOTICEABLE * solver.mesh.cell);
     details.extend([
-        Detail {
-            name: "modelled target radius",
-            unit: "mm",
-            value: extent.radius * 1e3,
-        },
-        Detail {
-            name: "modelled target depth",
-            unit: "mm",
-            value: extent.layers.iter().sum::<f64>() * 1e3,
-        },
-        Detail {
-            name: "crater diameter at the original face",
-            unit: "mm",
-            value: 2e3 * mouth,
-        },
-        Detail {
-            name: "crater volume below the original face",
-            unit: "mm3",
-            value: volume * 1e9,
-        },
+        Detail::new("modelled target radius", "mm", extent.radius * 1e3),
+        Detail::new(
+            "modelled target depth",
+            "mm",
+            extent.layers.iter().sum::<f64>() * 1e3,
+        ),
+        Detail::new("crater diameter at the original face", "mm", 2e3 * mouth),
+        Detail::new("crater volume below the original face", "mm3", volume * 1e9),
     ]);
     details
 }

@@ -6,6 +6,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::bisection::bisect;
+
 /// A cone `A(z) = A₀ (1 + z/z₀)²` that starts at the struck face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cone {
@@ -81,22 +83,13 @@ impl Grading {
             };
         }
         // The number of elements that a growth needs falls with it.
-        let (mut low, mut high) = (0.0, 1.0);
-        while elements_to(first, high, thickness) > count {
-            high *= 2.0;
+        let has_more = |growth: f64| elements_to(first, growth, thickness) > count;
+        let mut largest = 1.0;
+        while has_more(largest) {
+            largest *= 2.0;
         }
-        for _ in 0..100 {
-            let middle = 0.5 * (low + high);
-            if elements_to(first, middle, thickness) > count {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        Self {
-            first,
-            growth: high,
-        }
+        let (_, growth) = bisect(0.0, largest, 100, has_more);
+        Self { first, growth }
     }
 
     /// Elements between the face and a depth.

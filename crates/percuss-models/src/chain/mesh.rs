@@ -43,7 +43,7 @@ fn cone_and_grading(layers: &[Plate], scenario: &Scenario, mouth: f64) -> Option
         return None;
     }
     let cone = Cone::under_disc(mouth, layers.first()?.material.poissons_ratio);
-    let thickness = layers.iter().map(|p| modelled_thickness(p, scenario)).sum();
+    let thickness = scenario.modelled_length();
     let first = scenario.projectile.length / options.projectile_elements() as f64;
     let grading = Grading::new(first, thickness, options.target_elements());
     Some((cone, grading))

@@ -163,10 +163,9 @@ pub(super) fn of_cracks(count: usize, first: Option<(f64, f64)>) -> Vec<Detail> 
     let Some((position, time)) = first else {
         return Vec::new();
     };
-    let of = |name, unit, value| Detail { name, unit, value };
     vec![
-        of("cracks", "", count as f64),
-        of("first crack, initial position", "mm", position * 1e3),
-        of("first crack, time", "us", time * 1e6),
+        Detail::new("cracks", "", count as f64),
+        Detail::new("first crack, initial position", "mm", position * 1e3),
+        Detail::new("first crack, time", "us", time * 1e6),
     ]
 }

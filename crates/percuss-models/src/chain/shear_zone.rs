@@ -6,6 +6,7 @@
 //! `u = √3 [∫_a^∞ ε dr + ∫_0^a ε (r/a)² dr]`, so that `τ_a du` is the work of the zone.
 
 use super::adiabatic::{AdiabaticCurve, Sheared};
+use crate::bisection::bisected;
 
 pub(super) const SQRT_3: f64 = 1.732_050_807_568_877_2;
 /// Step of the rim's strain.
@@ -241,16 +242,8 @@ fn rings(radius: f64) -> Vec<Ring> {
 
 /// Factor from ring to ring with which they sum up to a number of first rings.
 fn growth(sum: f64) -> f64 {
-    let (mut low, mut high) = (1.0, 2.0);
-    for _ in 0..60 {
-        let middle: f64 = 0.5 * (low + high);
-        if (middle.powi(RINGS as i32) - 1.0) / (middle - 1.0) < sum {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
+    let rings = |factor: f64| (factor.powi(RINGS as i32) - 1.0) / (factor - 1.0);
+    bisected(1.0, 2.0, 60, |factor| rings(factor) < sum)
 }
 
 #[cfg(test)]

@@ -9,9 +9,11 @@ use crate::{
     outcome::{Outcome, RunResult},
     problem::RearFaceCondition,
     regime::{STRENGTH_STRAIN, THIN, is_thinner},
-    scenario::{Plate, Scenario, TargetBody, modelled_thickness},
+    scenario::{Plate, Scenario, TargetBody},
     units::{Velocity, significant},
-    validity::{fixed_rear_face_warning, pushed_column_warning},
+    validity::{
+        border_shear_warning, column_mesh_warnings, fixed_rear_face_warning, pushed_column_warning,
+    },
 };
 
 const OUT_OF_TIME: &str =
@@ -172,11 +174,7 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
     else {
         return;
     };
-    let thickness: f64 = layers
-        .iter()
-        .map(|plate| modelled_thickness(plate, scenario))
-        .sum();
-    let element = thickness / scenario.options.chain.target_elements() as f64;
+    let element = scenario.modelled_length() / scenario.options.chain.target_elements() as f64;
     let (permanent, at_rest) = (result.permanent_depth, result.time_to_rest.is_some());
     let is_whole = layers.iter().all(|plate| plate.gap == 0.0);
     if is_whole && at_rest && permanent.is_some_and(|permanent| depth > 2.0 * permanent) {
@@ -193,29 +191,11 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
         );
     } else if scenario.options.chain.target_resistance() != TargetResistanceModel::Column {
         warn_of_cone(scenario, layers, depth, warnings);
-    } else if scenario.options.chain.border_shear_law() == BorderShearLaw::Friction
-        && scenario.options.chain.border_shear() > 0.0
-    {
-        warnings.push(format!(
-            "the result depends on the target resistance model (constraint factor and border shear C = {}): `chain.border_shear = 0.0` \
-             gives the other end of the range",
-            significant(scenario.options.chain.border_shear(), 4)
-        ));
+    } else if scenario.options.chain.border_shear_law() == BorderShearLaw::Friction {
+        let coefficient = scenario.options.chain.border_shear();
+        warnings.extend(border_shear_warning("chain", coefficient));
     }
-    if depth > 0.0 && depth < element {
-        warnings.push(format!(
-            "the depth ({} mm) is less than one target element ({} mm): see `percuss converge`",
-            significant(depth * 1e3, 3),
-            significant(element * 1e3, 3)
-        ));
-    }
-    let semi_infinite = layers.iter().any(|plate| plate.thickness.is_none());
-    if semi_infinite && depth > 0.75 * thickness {
-        warnings.push(format!(
-            "the depth is close to the {} mm that stand for a semi-infinite target: give a thickness",
-            significant(thickness * 1e3, 3)
-        ));
-    }
+    warnings.extend(column_mesh_warnings(scenario, depth, "element", element));
 }
 
 /// Factor on either side of the threshold of penetration within which the cones are at their weakest.

@@ -176,10 +176,9 @@ pub(super) trait Bonded<const D: usize>: Debug + Clone + Sync {
     }
     /// Largest stretch and tension [Pa] of a run among its results.
     fn extremes_in_words(&self, stretch: f64, tension: f64) -> Vec<Detail> {
-        let detail = |name, unit, value| Detail { name, unit, value };
         vec![
-            detail("largest tension", "MPa", tension * 1e-6),
-            detail("largest stretch of a bond", "%", 100.0 * stretch),
+            Detail::new("largest tension", "MPa", tension * 1e-6),
+            Detail::new("largest stretch of a bond", "%", 100.0 * stretch),
         ]
     }
     /// What a reader has to know of them where nothing breaks.

@@ -218,8 +218,7 @@ impl Bonded<2> for Body {
 
     fn details(&self, scenario: &Scenario, inertia: &Inertia) -> Vec<Detail> {
         let extent = setup::extent(scenario);
-        let detail = |name, unit, value| Detail { name, unit, value };
-        let mut details = vec![detail(
+        let mut details = vec![Detail::new(
             "mass of the projectile, a metre wide",
             "kg",
             inertia.mass,
@@ -227,11 +226,15 @@ impl Bonded<2> for Body {
         let area = match setup::is_disc(scenario) {
             true => 0.25 * PI * extent.length * extent.length,
             false => {
-                details.push(detail("width of the lattice", "mm", self.width() * 1e3));
+                details.push(Detail::new(
+                    "width of the lattice",
+                    "mm",
+                    self.width() * 1e3,
+                ));
                 extent.length * extent.width
             }
         };
-        details.push(detail(
+        details.push(Detail::new(
             "area of the lattice over that of the body",
             "",
             self.area / area,

@@ -2,8 +2,10 @@
 
 use std::f64::consts::PI;
 
+use crate::bisection::bisected;
+
 /// Halvings of the search for a damping.
-const HALVINGS: usize = 60;
+const HALVINGS: u32 = 60;
 /// Step of the integration of a Hertz contact, in the time in which an undamped one of unit mass, stiffness and velocity swings.
 const STEP: f64 = 0.004;
 
@@ -30,15 +32,9 @@ pub(super) fn hertz_damping(restitution: f64) -> f64 {
 
 /// Damping that leaves a part of the velocity, by bisection: the larger it is, the less is left.
 fn damping(restitution: f64, largest: f64, left: impl Fn(f64) -> f64) -> f64 {
-    let (mut low, mut high) = (0.0, largest);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        match left(middle) > restitution {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
-    0.5 * (low + high)
+    bisected(0.0, largest, HALVINGS, |damping| {
+        left(damping) > restitution
+    })
 }
 
 /// Restitution of a damping, whatever the velocity: `x'' = −x^{3/2} − 2 ζ √(3/2) x^{1/4} x'` until the force would pull, by Runge and Kutta.

@@ -183,24 +183,27 @@ fn add_cracks<B: Bonded<D>, const D: usize>(run: &Impact<'_, B, D>, result: &mut
 
 fn details<B: Bonded<D>, const D: usize>(run: &Impact<'_, B, D>) -> Vec<Detail> {
     let body = &run.body;
-    let detail = |name, unit, value| Detail { name, unit, value };
     let mut details = vec![
-        detail("spacing of the particles", "mm", body.spacing() * 1e3),
-        detail("particles", "", body.particles().count() as f64),
+        Detail::new("spacing of the particles", "mm", body.spacing() * 1e3),
+        Detail::new("particles", "", body.particles().count() as f64),
     ];
     details.extend(body.details(run.scenario, &run.inertia));
     let (stretch, tension) = (run.state.largest_stretch, run.state.largest_tension);
     details.extend(body.extremes_in_words(stretch, tension));
     if run.inertia.moment.is_some() {
         let rate = -run.state.flight.spin;
-        details.push(detail("angular velocity of the projectile", "rad/s", rate));
+        details.push(Detail::new(
+            "angular velocity of the projectile",
+            "rad/s",
+            rate,
+        ));
     }
     if let Some(softening) = body.softening() {
         let pieces = body.pieces();
         let single = pieces.iter().filter(|piece| piece.particles == 1).count();
         details.extend([
-            detail("softening of the bonds", "", softening.end),
-            detail("pieces of one particle", "", single as f64),
+            Detail::new("softening of the bonds", "", softening.end),
+            Detail::new("pieces of one particle", "", single as f64),
         ]);
     }
     details

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from numbers import Real
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -263,7 +264,7 @@ def calibrate(
         hold_out=several(hold_out),
         model=model,
         reference=reference,
-        noise=f"{100 * noise!r} %" if isinstance(noise, (int, float)) else noise,
+        noise=f"{100 * noise!r} %" if isinstance(noise, Real) else noise,
         least_squares=least_squares,
         ensembles=ensembles,
         walkers=walkers,

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from . import _percuss, parts
+from .errors import UsageError
 
 
 class Case:
@@ -99,6 +100,8 @@ class Case:
             table: Any = tables
             for part in way:
                 table = table[int(part)] if isinstance(table, list) else table.setdefault(part, {})
+                if not isinstance(table, (dict, list)):
+                    raise UsageError(f"`{'.'.join((*way, last))}` is no key of a case: `{part}` is a value, and has no keys")
             table[int(last) if isinstance(table, list) else last] = value.to_dict() if isinstance(value, parts.Part) else value
         return _percuss.Case.from_tables(self.name, tables, self._native.folder)
 
@@ -173,8 +176,8 @@ class Case:
         return {"memory_bytes": memory, "steps": steps, "seconds": seconds}
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a case file, which the program reads."""
-        Path(path).write_text(self.text, encoding="utf-8")
+        """Writes a case file, which the program reads; records and curves of other files, whose paths are relative, stand in it."""
+        Path(path).write_text(self._native.self_contained(), encoding="utf-8")
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Where it came from a file, the file may be on another machine: the text goes along.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping, Sequence
+from numbers import Real
 from typing import Any, TypeAlias
 
 from . import _percuss, quantities
@@ -81,8 +82,12 @@ def speeds(speeds: Speed | Sequence[float] | None) -> str | None:
     quantity = quantities.text(speeds)
     if quantity is not None:
         return _speed_texts(quantity)
-    if isinstance(speeds, (int, float)):
-        return repr(float(speeds))
+    if isinstance(speeds, bool):
+        raise TypeError("a velocity is a number [m/s] or a text such as \"230 m/s\", and not True or False")
+    # The whole numbers of NumPy are no `int`.
+    speeds = float(speeds) if isinstance(speeds, Real) else speeds
+    if isinstance(speeds, float):
+        return repr(speeds)
     return ",".join(repr(float(speed)) for speed in speeds)
 
 

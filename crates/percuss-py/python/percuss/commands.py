@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from numbers import Real
 from typing import Any, TypeAlias
 
 from . import _percuss
@@ -132,7 +133,7 @@ def run(
     if out is not None or checkpoint is not None or any(value not in (None, False) for value in written.values()):
         if any(law is not None for law in laws):
             raise UsageError("files can be written only for runs with laws of the library: leave out `out`, or add the law to the library")
-        every = f"{float(checkpoint)!r} s" if isinstance(checkpoint, (int, float)) else checkpoint
+        every = f"{float(checkpoint)!r} s" if isinstance(checkpoint, Real) else checkpoint
         response = execute(
             "run", of=case, model=model, out=out, reference=reference, fast=reference is None, checkpoint=every, progress=progress, **written
         )

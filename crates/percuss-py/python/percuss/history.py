@@ -30,7 +30,10 @@ class _Columns:
         raise NotImplementedError
 
     def __getattr__(self, name: str) -> Array:
-        column = None if name.startswith("_") else self._column(name)
+        # Names with an underscore belong to protocols of Python and are never columns.
+        if name.startswith("_"):
+            raise AttributeError(f"{type(self).__name__} has no `{name}`")
+        column = self._column(name)
         if column is None:
             raise AttributeError(f"no column is named `{name}`; columns: {', '.join(self.names())}")
         import numpy
@@ -162,7 +165,7 @@ class Profile(ElementColumns, _Rows):
 class Gauge(ElementColumns, _Rows):
     """State of the material at a gauge versus time, one value per sample of the history.
 
-    The gauge moves with the material; its values are NaN after erosion.
+    The gauge moves with the material; its values are NaN after erosion. The first column is ``time_us``.
 
     Attributes
     ----------
@@ -177,19 +180,23 @@ class Gauge(ElementColumns, _Rows):
         #: Name of the gauge.
         self.name = name
 
-    @property
-    def time_us(self) -> Array:
-        """Times [us]."""
+    def names(self) -> list[str]:
+        return [_TIME.name, *super().names()]
+
+    def _column(self, name: str) -> _percuss.Column | Array | None:
+        if name != _TIME.name:
+            return super()._column(name)
         import numpy
 
         times: Array = numpy.asarray(self._native.gauge_times(self._index)) * _TIME.per_si
+        times.setflags(write=False)
         return times
 
     def _memory(self, si_name: str) -> _percuss.Column | None:
         return self._native.gauge_column(self._index, si_name)
 
     def __repr__(self) -> str:
-        return f"<Gauge {self.name!r}, {len(self.part)} samples; {units_of(['time_us', *self.names()])}>"
+        return f"<Gauge {self.name!r}, {len(self.part)} samples; {units_of(self.names())}>"
 
 
 class History(SampleColumns, _Rows):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import html
 import json
 from collections.abc import Iterable, Iterator
@@ -39,12 +40,13 @@ class Record:
 
     def __getattr__(self, name: str) -> Any:
         # Names with an underscore belong to protocols of Python and are never keys.
-        if not name.startswith("_"):
-            data = self._data
-            if name in data:
-                value = _wrapped(data[name])
-                self.__dict__[name] = value
-                return value
+        if name.startswith("_"):
+            raise AttributeError(f"{type(self).__name__} has no `{name}`")
+        data = self._data
+        if name in data:
+            value = _wrapped(data[name])
+            self.__dict__[name] = value
+            return value
         raise AttributeError(f"{type(self).__name__} has no `{name}`; it has: {', '.join(self.keys())}")
 
     def __getitem__(self, name: str) -> Any:
@@ -72,8 +74,8 @@ class Record:
         return list(self._data)
 
     def to_dict(self) -> dict[str, Any]:
-        """Values as in the JSON output."""
-        return self._data
+        """Values as in the JSON output: a copy."""
+        return copy.deepcopy(self._data)
 
     def _shown(self) -> list[tuple[str, str]]:
         """Names and values of the scalars that are not ``None``."""

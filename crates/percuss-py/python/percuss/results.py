@@ -54,6 +54,8 @@ class RunResult(ResultValues, Result):
             (result,) = whole.pop("results")
             self._data = whole | result
             return self._data
+        if name == "history":
+            raise AttributeError(f"the run by model `{self.model}` has no history")
         return super().__getattr__(name)
 
     @property
@@ -66,7 +68,7 @@ class RunResult(ResultValues, Result):
             When the run has none: a formula, or ``history=False``.
         """
         if self._native.samples() is None:
-            raise ValueError(f"the run by model `{self.model}` has no history")
+            raise AttributeError("no history")
         return History(self._native)
 
     def _rows(self) -> list[dict[str, Any]]:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, nullcontext
 from pathlib import Path as FilePath
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -194,6 +196,8 @@ def sweep(
     (True, [200.0, 230.0])
     """
     part, parts = shard
+    if threads is not None and not 1 <= threads <= _percuss.MOST_THREADS:
+        raise UsageError(f"`threads` = {threads} is out of range: 1 to {_percuss.MOST_THREADS}, or None for one per core")
     if not 1 <= part <= parts:
         raise UsageError(f"shard {part}/{parts} does not exist: parts are counted from 1 to their number")
     if out is None and (resume or shard != (1, 1)):
@@ -202,9 +206,9 @@ def sweep(
     if own and client is not None:
         raise UsageError("strength laws in Python are computed on this machine: leave out `client`, or add the law to the library")
     result = SweepResult(TemporaryDirectory(prefix="percuss-sweep-") if out is None else out)
-    path = _written(sweep, result.folder) if isinstance(sweep, Mapping) else FilePath(sweep)
-    native = _percuss.Sweep(path, projectile_law, target_law, own)
-    folder = _percuss.SweepFolder(result.folder, native, resume)
+    with _placed(sweep, result.folder) if isinstance(sweep, Mapping) else nullcontext(FilePath(sweep)) as path:
+        native = _percuss.Sweep(path, projectile_law, target_law, own)
+        folder = _percuss.SweepFolder(result.folder, native, resume)
     try:
         with watching(progress) as hear:
             if client is None:
@@ -293,25 +297,38 @@ def plot(
     return Drawing(execute("sweep plot", *several(folders), out=out, figures=formats(figures), figure_width=figure_width, quantity=quantity, style=style, x=x, y=y))
 
 
-def _written(sweep: Mapping[str, Any], out: FilePath) -> FilePath:
-    """The sweep file of a mapping, with its case beside it."""
+@contextmanager
+def _placed(sweep: Mapping[str, Any], out: FilePath) -> Iterator[FilePath]:
+    """The sweep file of a mapping, with its case beside it. A sweep that is refused leaves the folder as it was."""
     tables = dict(sweep)
     base = tables.get("base")
-    own: tuple[Case, str] | None = None
+    texts: dict[str, str] = {}
     if isinstance(base, Case):
-        if base.path is not None:
-            base = base.path
-        else:
-            own = base, f"{base.name}.toml"
-            tables["base"] = own[1]
-    if isinstance(base, os.PathLike):
+        name = re.sub(r"[^\w.-]+", "-", base.name)
+        name = "sweep-case.toml" if name == "sweep" else f"{name}.toml"
+        texts[name] = base._native.self_contained()
+        tables["base"] = name
+    elif isinstance(base, os.PathLike):
         tables["base"] = os.path.relpath(base, out)
-    # What is refused leaves no folder.
-    text = _percuss.toml_text(tables)
-    out.mkdir(parents=True, exist_ok=True)
-    if own is not None:
-        case, name = own
-        case.save(out / name)
-    path = out / "sweep.toml"
-    path.write_text(text, encoding="utf-8")
-    return path
+    texts["sweep.toml"] = _percuss.toml_text(tables)
+    files = {out / name: text.encode() for name, text in texts.items()}
+    before = {file: file.read_bytes() if file.exists() else None for file in files}
+    # Files of another sweep are found by its manifest; what else is there belongs to somebody.
+    foreign = [file for file, old in before.items() if old is not None and old != files[file]]
+    if foreign and not (out / "manifest.json").exists():
+        raise UsageError(f"{foreign[0]} is there and is not of this sweep: give another folder")
+    made = not out.exists()
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        for file, text in files.items():
+            file.write_bytes(text)
+        yield out / "sweep.toml"
+    except BaseException:
+        for file, old in before.items():
+            if old is None:
+                file.unlink(missing_ok=True)
+            else:
+                file.write_bytes(old)
+        if made and not any(out.iterdir()):
+            out.rmdir()
+        raise

@@ -158,7 +158,7 @@ fn state_columns(calibration: &Calibration) -> Vec<Column<State>> {
         Column::integer("walker", |s: &State| s.walker),
     ];
     for (i, parameter) in calibration.parameters.iter().enumerate() {
-        columns.push(Column::float(parameter.key.clone(), move |s: &State| {
+        columns.push(Column::float(parameter.column(), move |s: &State| {
             s.values[i]
         }));
     }

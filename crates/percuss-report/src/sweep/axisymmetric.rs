@@ -7,6 +7,7 @@ use percuss::{
     sweep::{AxisymmetricRow, Sweep},
 };
 
+use super::manifest::hash;
 use crate::{ReportError, replace_file::replace_file};
 
 /// Error of the CSV writer.
@@ -25,6 +26,10 @@ pub(super) const NAME: &str = "axisymmetric.csv";
 pub struct AxisymmetricFile {
     folder: PathBuf,
     heading: Vec<String>,
+    /// Words of the options that are varied, in the order of the parameters.
+    words: Vec<Option<Vec<String>>>,
+    /// Hash of the sweep and its case, which every row has.
+    sweep: String,
     /// Number of the run and its row.
     rows: Vec<(u64, Vec<String>)>,
 }
@@ -35,7 +40,7 @@ impl AxisymmetricFile {
     /// # Errors
     /// [`ReportError::Sweep`] where a file is there and is none of this sweep.
     pub fn open(folder: &Path, sweep: &Sweep) -> Result<Self, ReportError> {
-        let mut heading = vec!["index".to_owned()];
+        let mut heading = vec!["run".to_owned()];
         heading.extend(sweep.axes.iter().map(|axis| axis.column()));
         let rest = [
             "quantity",
@@ -44,11 +49,14 @@ impl AxisymmetricFile {
             "uncertainty",
             "order",
             "remark",
+            "sweep_hash",
         ];
         heading.extend(rest.map(str::to_owned));
         let mut file = Self {
             folder: folder.to_owned(),
             heading,
+            words: sweep.axes.iter().map(|axis| axis.words()).collect(),
+            sweep: hash(&sweep.content().concat()),
             rows: Vec::new(),
         };
         let path = folder.join(NAME);
@@ -71,6 +79,9 @@ impl AxisymmetricFile {
         }
         for row in reader.records() {
             let row: Vec<String> = row.map_err(words)?.iter().map(str::to_owned).collect();
+            if row.last() != Some(&self.sweep) {
+                return Err("its rows are those of another sweep, or of another case".to_owned());
+            }
             let index = row[0]
                 .parse()
                 .map_err(|_| "a row has no number".to_owned())?;
@@ -105,7 +116,11 @@ impl AxisymmetricFile {
     pub fn add(&mut self, row: &AxisymmetricRow) -> Result<PathBuf, ReportError> {
         let number = |value: Option<f64>| value.map_or_else(String::new, |value| value.to_string());
         let mut fields = vec![row.index.to_string()];
-        fields.extend(row.inputs.iter().map(f64::to_string));
+        let inputs = row.inputs.iter().zip(&self.words);
+        fields.extend(inputs.map(|(value, words)| match words {
+            Some(words) => words[*value as usize].clone(),
+            None => value.to_string(),
+        }));
         fields.push(
             row.quantity
                 .map_or_else(String::new, |quantity| quantity.name().to_owned()),
@@ -113,6 +128,7 @@ impl AxisymmetricFile {
         let numbers = [row.model_value, row.value, row.uncertainty, row.order];
         fields.extend(numbers.map(number));
         fields.push(row.remark.clone());
+        fields.push(self.sweep.clone());
         let place = self.rows.partition_point(|other| other.0 < row.index);
         self.rows.insert(place, (row.index, fields));
         let mut text = csv::Writer::from_writer(Vec::new());

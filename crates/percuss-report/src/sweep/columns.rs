@@ -7,7 +7,7 @@ use percuss::{
 };
 use serde::Serialize;
 
-use crate::column::Column;
+use crate::column::{Column, word};
 
 /// The result number that the ends of ranges and the estimated error follow.
 const BEFORE_RANGES: &str = "ballistic_limit_m_s";
@@ -16,12 +16,8 @@ const BEFORE_RANGES: &str = "ballistic_limit_m_s";
 pub(super) fn columns(sweep: &Sweep) -> Vec<Column<SweepRow>> {
     let mut columns = vec![Column::integer("run", |row: &SweepRow| row.index as i64)];
     for (i, axis) in sweep.axes.iter().enumerate() {
-        columns.push(match axis.words() {
-            None => Column::float(axis.column(), move |row: &SweepRow| row.inputs[i]),
-            Some(words) => Column::text(axis.column(), move |row: &SweepRow| {
-                words[row.inputs[i] as usize].clone()
-            }),
-        });
+        let value = move |row: &SweepRow| row.inputs[i];
+        columns.push(Column::varied(axis.column(), axis.words(), value));
     }
     columns.push(text("outcome", |r| word(&r.outcome), "failed"));
     columns.push(text("termination", |r| word(&r.termination), ""));
@@ -91,11 +87,6 @@ fn text(
         Ok(record) => read(record),
         Err(_) => without.to_owned(),
     })
-}
-
-/// The name that a value has in JSON; empty when there is none.
-pub(super) fn word(value: &impl Serialize) -> String {
-    json(value).trim_matches('"').replace("null", "")
 }
 
 fn json(value: &impl Serialize) -> String {

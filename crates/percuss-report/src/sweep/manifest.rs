@@ -205,7 +205,7 @@ fn unreadable(path: &Path, reason: &str) -> ReportError {
 }
 
 /// FNV-1a, 128 bits: the same on every machine. It tells sweeps apart; nobody forges one.
-fn hash(text: &str) -> String {
+pub(super) fn hash(text: &str) -> String {
     let hash = text.bytes().fold(
         0x6c62_272e_07bb_0142_62b8_2175_6295_c58d,
         |hash: u128, byte| {

@@ -14,11 +14,8 @@ use percuss::{
     sweep::{Sweep, SweepRow},
 };
 
-use super::{
-    columns::{columns, word},
-    parts::Parts,
-};
-use crate::ReportError;
+use super::{columns::columns, parts::Parts};
+use crate::{ReportError, column::word};
 
 /// Some columns of a sweep's rows, and what the rows without a value lack it for.
 pub(super) struct Rows {

@@ -89,12 +89,12 @@ fn table<R>(
 fn sample_columns(found: &Uncertainty) -> Vec<Column<Draw>> {
     let mut columns = Vec::new();
     for (i, input) in found.inputs.iter().enumerate() {
-        columns.push(Column::float(input.column.as_str(), move |draw: &Draw| {
-            draw.inputs[i]
-        }));
+        let value = move |draw: &Draw| draw.inputs[i];
+        let column = Column::varied(input.column.as_str(), input.words.clone(), value);
+        columns.push(column);
     }
     columns.push(Column::text("outcome", |draw: &Draw| {
-        draw.outcome.describe().to_owned()
+        column::word(&draw.outcome)
     }));
     for (i, quantity) in quantities().enumerate() {
         if found.draws.iter().any(|draw| draw.values[i].is_some()) {

@@ -4,7 +4,7 @@ use percuss::validate::{Group, PredictionRecord, Validation};
 
 use crate::{
     ReportError,
-    column::{self, Column},
+    column::{self, Column, word},
 };
 
 /// Names and contents of the files.
@@ -48,7 +48,7 @@ fn prediction_columns() -> Vec<Column<PredictionRecord>> {
         Column::text("flag", move |p: &Row| or_empty(&p.flag)),
         Column::text("duplicate_of", move |p: &Row| or_empty(&p.duplicate_of)),
         Column::text("regime", |p: &Row| p.regime.clone()),
-        Column::text("outcome", |p: &Row| p.outcome.describe().to_owned()),
+        Column::text("outcome", |p: &Row| word(&p.outcome)),
         Column::integer("warnings", |p: &Row| p.warnings as i64),
     ]
 }

@@ -7,15 +7,13 @@ mod page;
 mod quantity;
 pub mod rate;
 
-use std::{
-    ops::ControlFlow,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use percuss::{
     Error,
     model::{self, Control},
     outcome::RunResult,
+    solver::go_on_to_next_run,
     units::significant,
 };
 use percuss_report::{
@@ -87,13 +85,7 @@ impl Steps<'_, '_> {
     fn next(&mut self) -> Result<(), Error> {
         let fraction = (self.done / self.total).min(1.0);
         self.done += 1.0;
-        match (self.progress)(fraction) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(Error::Cancelled {
-                step: 0,
-                time_us: 0.0,
-            }),
-        }
+        go_on_to_next_run((self.progress)(fraction))
     }
 }
 

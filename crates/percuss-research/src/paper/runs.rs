@@ -1,7 +1,5 @@
 //! Computations behind the checks.
 
-use std::ops::ControlFlow;
-
 use percuss::{
     Error, Scenario, case,
     case::{
@@ -10,6 +8,7 @@ use percuss::{
     },
     model::{self, Control},
     outcome::RunResult,
+    solver::go_on_to_next_run,
     units::Mass,
 };
 
@@ -159,13 +158,7 @@ impl Runs {
             compared: Vec::new(),
             joined_steps: Vec::new(),
         };
-        let mut tell = |done: usize| match progress(done as f64 / total) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(Error::Cancelled {
-                step: 0,
-                time_us: 0.0,
-            }),
-        };
+        let mut tell = |done: usize| go_on_to_next_run(progress(done as f64 / total));
         for (i, key) in keys.into_iter().enumerate() {
             if !runs.done.iter().any(|(done, _)| *done == key) {
                 runs.done

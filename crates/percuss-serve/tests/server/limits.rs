@@ -66,7 +66,9 @@ fn a_run_has_a_time() {
     let fine = format!("{PAPER}\n[axi]\ncells_per_radius = 16\ncourant = 0.2\n");
     let axi = json!({ "case": fine, "model": "axi" });
     let answer = served.post("/api/answer", &axi);
-    assert_eq!(answer.status, 400, "{}", answer.text());
+    assert_eq!(answer.status, 422, "{}", answer.text());
+    let message = &answer.json()["problem"]["message"];
+    assert_eq!(message, "model `axi` takes too long for the page");
     let last = outcome(&served, "run", &axi);
     assert_eq!(
         last["problem"]["message"],

@@ -85,7 +85,8 @@ fn bodies_have_a_size_and_a_form() {
         "/api/answer",
         &json!({ "case": PAPER, "edits": [{ "key": "a", "value": value }] }),
     );
-    assert_eq!(answer.status, 400);
+    assert_eq!(answer.status, 422);
+    assert_eq!(answer.json()["problem"]["key"], "a");
     assert_eq!(served.post_bytes("/api/answer", &body(), "").status, 200);
 }
 

@@ -81,6 +81,13 @@ export class ChartView {
     else this.draw();
   }
 
+  // Draws what waits to come into view.
+  settle(): void {
+    if (!this.late) return;
+    this.late = false;
+    this.draw();
+  }
+
   // Redraws everything, as after a change of the theme.
   draw(): void {
     const chart = this.chart;

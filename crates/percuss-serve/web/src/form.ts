@@ -5,7 +5,7 @@ import { holds } from "./words";
 import type { Field, Start, Unit, Value, Values } from "./types";
 
 // A key and its new value as TOML writes it; none removes the key.
-export interface Edit { key: string; value: string | null }
+export interface Edit { key: string; value: string | null; nested: boolean }
 
 // A new value, of a slider that may still move.
 type Change = (value: string | null, moving?: boolean) => void;
@@ -38,6 +38,8 @@ export class Form {
   private controls: { key: string; control: Control }[] = [];
   private built = "";
   private values: Values = {};
+  // Key of the last edit.
+  private last = "";
 
   constructor(private start: Start, private change: (edits: Edit[], moving: boolean) => void) {
     get("form").addEventListener("submit", (event) => event.preventDefault());
@@ -60,10 +62,12 @@ export class Form {
     }
   }
 
-  // Marks the field that a problem is about.
+  // Marks the field that a problem is about; of a problem with a whole table, the field in it that was edited last.
   mark(key: string): void {
+    const own = this.controls.some((entry) => entry.key === key || key.startsWith(`${entry.key}.`));
+    const meantKey = !own && this.last.startsWith(`${key}.`) ? this.last : key;
     for (const entry of this.controls) {
-      const meant = key !== "" && (entry.key === key || key.startsWith(`${entry.key}.`));
+      const meant = key !== "" && (entry.key === meantKey || meantKey.startsWith(`${entry.key}.`));
       if (meant) entry.control.input.setAttribute("aria-invalid", "true");
       else entry.control.input.removeAttribute("aria-invalid");
     }
@@ -99,7 +103,10 @@ export class Form {
     const label = field.key.split(".").slice(1).join(" ").replaceAll("_", " ").replace(/^layers (\d+)/, (_, i) => `layer ${Number(i) + 1}`);
     const id = `field-${field.key.replaceAll(".", "-")}`;
     const frame = make("div", { class: `field of-${field.kind}`, title: field.help }, make("label", { for: id }, label));
-    const edit: Change = (value, moving = false) => this.change([{ key: field.key, value }], moving);
+    const edit: Change = (value, moving = false) => {
+      this.last = field.key;
+      this.change([{ key: field.key, value, nested: field.nested }], moving);
+    };
     // A field within a value is there with the value; a field that belongs to another form of target is not in the way.
     const present = (values: Values) => {
       if (field.key in values) return true;
@@ -188,6 +195,13 @@ export function expand(field: Field, layers: number): Field[] {
   return Array.from({ length: layers }, (_, index) => ({ ...field, key: field.key.replace("*", String(index)), nested: false }));
 }
 
+// Follows what is typed. An emptied field takes its key out of the case when it is left: until then another value may be typed, which
+// keeps the place and the comment of the key.
+function onEntry(input: HTMLInputElement, write: () => void): void {
+  input.addEventListener("input", () => input.value.trim() !== "" && write());
+  input.addEventListener("change", () => input.value.trim() === "" && write());
+}
+
 const isFocused = (element: Element) => document.activeElement === element;
 
 function toSI(value: number, unit: Unit | undefined): number {
@@ -238,11 +252,11 @@ function quantity(field: Field, id: string, frame: HTMLElement, edit: Change) {
     if (input.value.trim() === "") return edit(null);
     edit(quoted(`${input.value.trim()} ${unit.value}`), moving);
   };
-  input.addEventListener("input", () => write());
+  onEntry(input, () => write());
   unit.addEventListener("input", () => {
     const si = toSI(Number(input.value), find(before));
     // Another unit is another way to write the same quantity.
-    if (input.value.trim() !== "" && find(unit.value) && find(before)) input.value = significant(fromSI(si, find(unit.value)), 7);
+    if (input.value.trim() !== "" && Number.isFinite(si) && find(unit.value) && find(before)) input.value = significant(fromSI(si, find(unit.value)), 7);
     if (input.value.trim() === "" && find(unit.value) && range) input.value = significant(fromSI(limits[1] / 2, find(unit.value)), 3);
     before = unit.value;
     write();
@@ -286,7 +300,7 @@ function number(field: Field, id: string, frame: HTMLElement, edit: Change) {
   frame.append(input);
   if (range) frame.append(range);
   let limits: [number, number] = [0, 1];
-  input.addEventListener("input", () => {
+  onEntry(input, () => {
     const text = input.value.trim();
     edit(text === "" ? null : written(text));
   });
@@ -339,7 +353,7 @@ function choice(
 
 function text(field: Field, id: string, frame: HTMLElement, edit: Change) {
   const input = make("input", { id, type: "text", placeholder: ofDefault(field) });
-  input.addEventListener("input", () => edit(input.value.trim() === "" ? null : quoted(input.value)));
+  onEntry(input, () => edit(input.value.trim() === "" ? null : quoted(input.value)));
   frame.append(input);
   const show = (values: Values) => {
     if (!isFocused(input)) input.value = shown(values[field.key]);

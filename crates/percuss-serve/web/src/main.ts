@@ -2,7 +2,7 @@
 
 import "uplot/dist/uPlot.min.css";
 import "./app.css";
-import { Refused, follow, post, postForFile } from "./api";
+import { Refused, follow, lost, post, postForFile } from "./api";
 import { ChartView } from "./charts";
 import { onThemeChange } from "./colors";
 import { bring, button, download, get, make, pairs } from "./dom";
@@ -26,6 +26,8 @@ const start = JSON.parse(get("data").textContent ?? "") as Start;
 const text = get<HTMLTextAreaElement>("text");
 const models = get<HTMLSelectElement>("models");
 const cases = get<HTMLSelectElement>("cases");
+// Choice of no model.
+const automatic = make("option", { value: "" }, "automatic");
 const views = new Map<string, ChartView>();
 const others: ChartView[] = [];
 const form = new Form(start, (edits, moving) => ask(edits, moving));
@@ -36,13 +38,21 @@ const refinement = new Refinement(
   (time, rests) => [...views.values()].forEach((view) => view.mark(time, rests)),
   () => variants.refine(),
 );
-const variants = new Variants(() => name, () => refinement.answer, load);
+const variants = new Variants(() => name, () => model, () => refinement.answer, load);
 const past = new History(load);
+// Studies that are told of another case.
+const followers: (() => void)[] = [];
 
 let name = start.name;
 // null: the server selects the model.
-let model: string | null = start.answer.model;
+let model: string | null = null;
+// Model of the answer that is shown.
+let answered = start.answer.model;
 let pending: { edits: Map<string, Edit>; moving: boolean } | null = null;
+// Edits that have not reached the server, which did not respond.
+let unsent = new Map<string, Edit>();
+// Done when no answer is computed any more.
+let idle: Promise<void> = Promise.resolve();
 let values = start.answer.values;
 let rest = 0;
 let current: { control: AbortController; since: number } | null = null;
@@ -56,12 +66,16 @@ function ask(edits: Edit[] = [], moving = false): void {
   clearTimeout(rest);
   // What is refined is no longer the answer, and the processor is wanted.
   if (edits.length || !refinement.has(text.value)) refinement.stop();
-  pending ??= { edits: new Map(), moving };
+  pending ??= { edits: unsent, moving };
+  unsent = new Map();
   pending.moving &&= moving;
   for (const edit of edits) pending.edits.set(edit.key, edit);
-  if (!current) void answerAll();
+  if (!current) idle = answerAll();
   else if (performance.now() - current.since > PATIENCE_MS) current.control.abort();
 }
+
+// Edits that wait for their answer.
+const later = () => pending?.edits;
 
 // Puts edits of a run that was ended before those that wait; false when nothing waits.
 function keep(edits: Map<string, Edit>): boolean {
@@ -84,10 +98,9 @@ async function answerAll(): Promise<void> {
       const body = { name, case: sent, edits: [...edits.values()], model, ...(moving ? { in_view: seen } : {}) };
       const answer = await post<Answer>("/api/answer", body, control.signal);
       if (text.value === sent) text.value = answer.case;
-      // A model that was chosen meanwhile is computed next.
-      const chosen = model === asked ? null : model;
       show(answer, since, moving);
-      if (chosen) models.value = model = chosen;
+      // A model that was chosen meanwhile is computed next.
+      if (model !== asked) models.value = model ?? "";
       if (moving && !pending) rest = window.setTimeout(() => ask(), REST_MS);
     } catch (error) {
       if (control.signal.aborted) {
@@ -96,7 +109,9 @@ async function answerAll(): Promise<void> {
       } else if (error instanceof Refused) {
         const refused = error.body as { case?: string; values?: Answer["values"] };
         if (refused.case !== undefined && text.value === sent) text.value = refused.case;
-        if (refused.values && Object.keys(refused.values).length) form.show(refused.values, model ?? models.value);
+        if (refused.values && Object.keys(refused.values).length) form.show(refused.values, model ?? answered, undefined, later());
+        if (error.problem === lost) unsent = edits;
+        else past.add({ name, case: text.value, model });
         refuse(error.problem);
       } else {
         throw error;
@@ -118,9 +133,12 @@ function show(answer: Answer, since: number | null, draft: boolean): void {
   get("problem").hidden = true;
   get("answer").classList.remove("stale");
   form.mark("");
-  model = answer.model;
-  models.value = answer.model;
-  form.show(answer.values, answer.model, draft ? undefined : answer.in_use, pending?.edits);
+  answered = answer.model;
+  automatic.textContent = model === null ? `automatic: ${answered}` : "automatic";
+  models.value = model ?? "";
+  const known = start.cases.find((one) => one.name === name);
+  cases.value = known?.text === answer.case ? name : "";
+  form.show(answer.values, answer.model, draft ? undefined : answer.in_use, later());
   get("own-title").textContent = `Numbers of model ${answer.model}`;
   get("numbers").replaceChildren(...pairs(answer.rows[0]));
   get("more-numbers").querySelector("dl")?.replaceChildren(...pairs([...answer.rows[1], ...answer.rows[2]]));
@@ -139,15 +157,16 @@ function show(answer: Answer, since: number | null, draft: boolean): void {
   get("status").textContent = took || `computed in ${run}`;
   document.documentElement.dataset["answers"] = String(Number(document.documentElement.dataset["answers"] ?? 0) + 1);
   if (draft) return;
-  past.add({ name, case: answer.case, model: answer.model });
+  past.add({ name, case: answer.case, model });
   variants.follow(answer);
   numbers.follow(answer);
   for (const done of waiting.splice(0)) done();
   sideBySide.follow({ name, case: answer.case });
   refinement.follow({ name, case: answer.case }, answer);
+  for (const tell of followers) tell();
   downloads(answer);
   clearTimeout(saved);
-  saved = window.setTimeout(() => void save(answer), 400);
+  saved = window.setTimeout(() => void save(), 400);
 }
 
 function showCharts(answer: Answer): void {
@@ -184,14 +203,28 @@ function refuse(problem: Problem): void {
   sideBySide.stop();
 }
 
-async function save(answer: Answer): Promise<void> {
-  const fragment = await toFragment({ name, case: answer.case, model: answer.model });
+// Keeps the case as it stands in the address of the page.
+async function save(): Promise<void> {
+  const fragment = await toFragment({ name, case: text.value, model });
   if (fragment !== location.hash) history.replaceState(null, "", fragment);
+}
+
+// Copies the address of the case as it stands, a refused one too.
+async function copyLink(): Promise<void> {
+  await idle;
+  clearTimeout(saved);
+  await save();
+  try {
+    await navigator.clipboard.writeText(location.href);
+    get("status").textContent = "the link is in the clipboard";
+  } catch {
+    get("status").textContent = "the link is the address of this page";
+  }
 }
 
 async function take(file: string): Promise<void> {
   try {
-    const content = await postForFile("/api/file", { name, case: text.value, model, file });
+    const content = await postForFile("/api/file", { name, case: text.value, model: model ?? answered, file });
     download(`${name || "case"}-${file}`, content, content.type);
   } catch (error) {
     if (error instanceof Refused) refuse(error.problem);
@@ -248,29 +281,25 @@ async function validate(): Promise<void> {
 }
 
 function build(): void {
-  cases.append(make("option", { value: "" }, "your own"));
+  cases.append(make("option", { value: "", disabled: "" }, "your own"));
   cases.append(...start.cases.map((known) => make("option", { value: known.name, title: known.title }, known.name)));
   cases.value = start.cases.some((known) => known.name === name) ? name : "";
   cases.addEventListener("input", () => {
     const chosen = start.cases.find((known) => known.name === cases.value);
     if (chosen) load({ name: chosen.name, case: chosen.text, model: null });
   });
-  models.append(...start.models.filter((known) => !known.slow).map((known) => make("option", { value: known.name, title: known.summary }, known.name)));
+  models.append(automatic, ...start.models.filter((known) => !known.slow).map((known) => make("option", { value: known.name, title: known.summary }, known.name)));
   models.addEventListener("input", () => {
-    model = models.value;
+    model = models.value || null;
     ask();
   });
   text.addEventListener("input", () => ask());
   get("to-studies").addEventListener("click", () => bring(get("studies-title")));
   get("validation").addEventListener("click", () => void validate());
-  get("link").addEventListener("click", () => {
-    void navigator.clipboard?.writeText(location.href).then(
-      () => (get("status").textContent = "the link is in the clipboard"),
-      () => (get("status").textContent = "the link is the address of this page"),
-    );
-  });
+  get("link").addEventListener("click", () => void copyLink());
   const page = {
-    request: () => ({ name, case: text.value, model: model ?? models.value }),
+    request: () => ({ name, case: text.value, model: model ?? answered }),
+    onChange: (tell: () => void) => void followers.push(tell),
     hasMeasured: () => Object.keys(values).some((key) => /^(experiments|measured_curves)\./.test(key)),
     hasUncertainty: () => Object.keys(values).some((key) => key.startsWith("uncertainty.")),
     insert: (example: string) => {
@@ -287,6 +316,8 @@ function build(): void {
     },
   };
   get("studies").append(...studies(page, numbers, others));
+  // What is printed was not all in view.
+  addEventListener("beforeprint", () => [...views.values(), ...others].forEach((view) => view.settle()));
   onThemeChange(() => [...views.values(), ...others, refinement.impact].forEach((view) => view.draw()));
   addEventListener("hashchange", () => void fromFragment(location.hash).then((state) => state && load(state)));
   document.addEventListener("keydown", (event) => {

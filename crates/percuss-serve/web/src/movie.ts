@@ -36,11 +36,13 @@ export async function video({ canvas, count, draw }: Reel, name: string, report:
   recorder.addEventListener("dataavailable", (event) => parts.push(event.data));
   const ended = new Promise((done) => recorder.addEventListener("stop", done));
   recorder.start();
+  const began = performance.now();
   let wanted = true;
   for (let index = 0; index < count && wanted; index++) {
     draw(index);
     wanted = report(index / count);
-    await pause(1000 / RATE);
+    // Drawing takes a part of the time of a picture.
+    await pause(Math.max(0, began + ((index + 1) * 1000) / RATE - performance.now()));
   }
   recorder.stop();
   await ended;

@@ -9,6 +9,8 @@ import type { Chart, Problem, Study } from "./types";
 // What studies ask of the page.
 export interface Page {
   request(): { name: string; case: string; model: string };
+  // Calls back after each answer to another case.
+  onChange(tell: () => void): void;
   hasUncertainty(): boolean;
   hasMeasured(): boolean;
   // Another text of the case; done when its answer is shown.
@@ -60,6 +62,9 @@ export function panel(kind: Kind, views: Views, page: Page): HTMLElement {
   const words = make("span", { class: "soft" });
   const result = make("div", { class: "result" });
   let control: AbortController | null = null;
+  // Case and model of the result.
+  let studied = "";
+  page.onChange(() => result.classList.toggle("stale", studied !== "" && studied !== JSON.stringify(page.request())));
   const start = button(kind.title, () => void run());
   const cancel = button("Cancel", () => control?.abort());
   const running = make("span", { class: "running", role: "status" }, bar, words, cancel);
@@ -73,8 +78,10 @@ export function panel(kind: Kind, views: Views, page: Page): HTMLElement {
     bar.value = 0;
     words.textContent = "";
     result.replaceChildren();
+    result.classList.remove("stale");
     try {
       const added = await kind.prepare?.();
+      studied = JSON.stringify(page.request());
       const note = added ? [make("p", { class: "note", role: "status" }, added)] : [];
       const done = await follow<Study>(kind.path, kind.body(), own.signal, (fraction, said) => {
         bar.value = fraction;

@@ -156,6 +156,6 @@ export class Section {
     context.font = `bold 15px ${FONT}`;
     context.fillText(`${head.time_us.toFixed(1)} µs`, left, MARGIN + 14);
     context.font = `12px ${FONT}`;
-    if (this.plan.wall === null) context.fillText(`${significant(head.depth_mm, 3)} mm deep`, left, MARGIN + 31);
+    if (this.plan.wall === null) context.fillText(`${significant(head.depth_mm, 3)} mm deep`, left, MARGIN + 31, RIGHT - 12);
   }
 }

@@ -7,6 +7,7 @@ import type { Answer, Values } from "./types";
 export interface Kept { name: string; case: string; model: string | null }
 
 interface Variant extends Kept {
+  answered: string;
   values: Values;
   numbers: Map<string, string>;
 }
@@ -25,7 +26,7 @@ export class History {
     this.button.addEventListener("click", () => this.undo());
   }
 
-  // The case of an answer.
+  // The case of an answer or a refusal.
   add(kept: Kept): void {
     const before = this.shown;
     this.shown = kept;
@@ -49,7 +50,7 @@ export class Variants {
   private box = get("variants");
   private answer: Answer | null = null;
 
-  constructor(private name: () => string, private best: () => [string, string] | null, private load: (kept: Kept) => void) {
+  constructor(private name: () => string, private model: () => string | null, private best: () => [string, string] | null, private load: (kept: Kept) => void) {
     get("keep").addEventListener("click", () => this.keep());
   }
 
@@ -71,7 +72,7 @@ export class Variants {
     const rows = answer.rows[0].filter(([label]) => ROWS.includes(label));
     const best = this.best();
     const numbers = new Map<string, string>([...(best ? [best] : []), ...rows.map(([label, value]) => [`${label}`, value] as [string, string])]);
-    this.kept.push({ name: this.name(), case: answer.case, model: answer.model, values: answer.values, numbers });
+    this.kept.push({ name: this.name(), case: answer.case, model: this.model(), answered: answer.model, values: answer.values, numbers });
     this.show();
     this.box.scrollIntoView({ block: "nearest" });
   }
@@ -87,7 +88,7 @@ export class Variants {
     const axisymmetric = labels.filter((label) => !ROWS.includes(label));
     const order = [...axisymmetric, ...ROWS.filter((label) => labels.includes(label))];
     const rows = this.kept.map((variant, i) => [
-      `${i + 1}: ${variant.name || "case"}, ${variant.model}`,
+      `${i + 1}: ${variant.name || "case"}, ${variant.answered}`,
       ...changed.map((key) => words(variant.values[key])),
       ...order.map((label) => variant.numbers.get(label) ?? "–"),
       make("span", {}, this.action("Show", i, () => this.load(variant)), " ", this.action("Remove", i, () => this.remove(i))),

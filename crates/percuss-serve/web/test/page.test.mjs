@@ -242,6 +242,7 @@ test("an empty field shows the value in use", async () => {
   await page.locator("#field-target-thickness").fill("25");
   await answered(page, 3);
   await page.locator("#field-chain-target_elements").fill("");
+  await page.locator("#field-chain-target_elements").blur();
   await page.waitForFunction(() => document.getElementById("field-chain-target_elements").placeholder === "80 (default)");
   await page.context().close();
 });
@@ -275,6 +276,108 @@ test("the text stands beside the form where there is room", async () => {
   assert.ok(answer.x >= text.x + text.width, JSON.stringify([text, answer]));
   const wider = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   assert.ok(wider <= 0, `${wider} px wider than the window`);
+  await page.context().close();
+});
+
+test("a nose that the chain does not take is answered by the model that is chosen then", async () => {
+  const page = await open();
+  assert.equal(await page.locator("#models").evaluate((menu) => menu.selectedOptions[0].textContent), "automatic: chain");
+  await page.locator("#field-projectile-nose").selectOption('"hemisphere"');
+  await answered(page, 2);
+  assert.equal(await page.locator("#models").evaluate((menu) => menu.selectedOptions[0].textContent), "automatic: crater_energy");
+  assert.ok(await page.locator("#problem").isHidden());
+  // A model that was chosen by hand stays, and says why it does not apply.
+  await page.locator("#models").selectOption("chain");
+  await page.locator("#problem").waitFor();
+  assert.equal(await page.locator("#models").inputValue(), "chain");
+  await page.context().close();
+});
+
+test("the link has the case as it stands, a refused one too", async () => {
+  const page = await open();
+  await page.locator("#field-projectile-impact_velocity").fill("-5");
+  await page.locator("#problem").waitFor();
+  await page.locator("#link").click();
+  await page.waitForFunction(() => document.getElementById("status").textContent.startsWith("the link is"));
+  const link = page.url();
+  const other = await open(new URL(link).pathname + new URL(link).hash);
+  await other.locator("#problem").waitFor();
+  assert.match(await other.locator("#text").inputValue(), /impact_velocity = "-5 m\/s"/);
+  await page.context().close();
+  await other.context().close();
+});
+
+test("a changed case says so, and goes back step by step", async () => {
+  const page = await open();
+  const speed = page.locator("#field-projectile-impact_velocity");
+  const title = () => page.locator('figure[data-chart="depth-time"] figcaption').innerText();
+  assert.doesNotMatch(await title(), /\(changed\)/);
+  await speed.fill("300");
+  await answered(page, 2);
+  assert.match(await title(), /\(changed\)/);
+  assert.equal(await page.locator("#cases").inputValue(), "");
+  await speed.fill("350");
+  await answered(page, 3);
+  await speed.fill("-350");
+  await page.locator("#problem").waitFor();
+  await speed.blur();
+  await page.locator("#undo").click();
+  await page.locator("#problem").waitFor({ state: "hidden" });
+  await page.waitForFunction(() => document.getElementById("field-projectile-impact_velocity").value === "350");
+  await page.context().close();
+});
+
+test("a field that is emptied and filled keeps the comment of its key", async () => {
+  const page = await open();
+  const text = await page.locator("#text").inputValue();
+  await page.locator("#text").fill(text.replace('length = "12.74 mm"', 'length = "12.74 mm" # measured'));
+  await answered(page, 2);
+  const length = page.locator("#field-projectile-length");
+  await length.fill("");
+  await length.fill("13");
+  await page.waitForFunction(() => document.getElementById("text").value.includes('length = "13 mm" # measured'));
+  // Without a value the case lacks it, and the field is marked.
+  await length.fill("");
+  await length.blur();
+  await page.locator("#problem").waitFor();
+  assert.equal(await length.getAttribute("aria-invalid"), "true");
+  await page.context().close();
+});
+
+test("a bad number outlives another unit", async () => {
+  const page = await open();
+  const length = page.locator("#field-projectile-length");
+  await length.fill("12,5");
+  await page.locator("#problem").waitFor();
+  await page.locator("#field-projectile-length + select").selectOption("in");
+  assert.equal(await length.inputValue(), "12,5");
+  await page.context().close();
+});
+
+test("an option that goes back to its default takes its table along", async () => {
+  const page = await open();
+  const text = await page.locator("#text").inputValue();
+  await page.locator("#field-chain-published-small_strain").evaluate((input) => input.closest("details").setAttribute("open", ""));
+  await page.locator("#field-chain-published-small_strain").selectOption({ index: 1 });
+  await page.locator("#problem").waitFor();
+  await page.locator("#field-chain-published-small_strain").selectOption({ index: 0 });
+  await page.locator("#problem").waitFor({ state: "hidden" });
+  const left = (await page.locator("#text").inputValue()).replace(" (changed)", "");
+  assert.equal(left, text);
+  await page.context().close();
+});
+
+test("what is typed while the server does not respond is not lost", async () => {
+  const page = await open();
+  await page.route("**/api/answer", (route) => route.fulfill({ status: 422, contentType: "application/json", body: "{}" }));
+  await page.locator("#field-projectile-impact_velocity").fill("450");
+  await page.locator("#problem").waitFor();
+  await page.unroute("**/api/answer");
+  await page.locator("#field-projectile-diameter").fill("5");
+  await answered(page, 2);
+  const text = await page.locator("#text").inputValue();
+  assert.match(text, /impact_velocity = "450 m\/s"/);
+  assert.match(text, /diameter = "5 mm"/);
   await page.context().close();
 });
 

@@ -159,14 +159,18 @@ pub fn answer_with_frames(
     let axi = model::model(MODEL)?;
     let costs: Vec<f64> = plan.cells.iter().map(|&n| seconds(scenario, n)).collect();
     let whole: f64 = costs.iter().sum();
-    let done = Mutex::new((vec![0.0; costs.len()], progress));
+    let done = Mutex::new((vec![0.0; costs.len()], progress, ControlFlow::Continue(())));
     let report = |mesh: usize, fraction: f64| {
         // A caller whose callback has panicked gets its panic anyway.
         let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
-        let (fractions, progress) = &mut *done;
+        let (fractions, progress, flow) = &mut *done;
         fractions[mesh] = fraction.clamp(0.0, 1.0);
         let sum: f64 = fractions.iter().zip(&costs).map(|(f, cost)| f * cost).sum();
-        progress(sum / whole)
+        // A caller who has stopped the runs is not asked again for the other meshes.
+        if flow.is_continue() {
+            *flow = progress(sum / whole);
+        }
+        *flow
     };
     let frames = Mutex::new(frames);
     // The finest mesh takes longest and starts first.

@@ -68,7 +68,7 @@ pub use record::{CalibratedRecord, records};
 pub use sampler::{Sample, Sampling};
 pub use stage::{Stage, Stages};
 
-use crate::Error;
+use crate::{Error, inputs::column_name};
 
 /// How a problem is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,6 +98,13 @@ pub struct ParameterRecord {
     pub standard_error: Option<f64>,
     /// What the sample says of it.
     pub posterior: Option<Marginal>,
+}
+
+impl ParameterRecord {
+    /// Name of its column in tables, which ends with the unit.
+    pub fn column(&self) -> String {
+        column_name(&self.key, &self.unit)
+    }
 }
 
 /// The relative scatter of measured values about the model.

@@ -4,6 +4,8 @@ use std::str::FromStr;
 
 use serde::Serialize;
 
+use crate::bisection::bisect_ratio;
+
 /// Scatter of measured values about the model: Gaussian and, but for the points of a curve, independent.
 ///
 /// The variance of a value is `u² + (s c)²`: u is its stated standard deviation, 0 where there is none; s is a relative scatter that
@@ -95,17 +97,9 @@ pub(super) fn scatter_of(differences: &[f64], spreads: &[Spread], degrees: f64) 
             |(difference, spread): (&f64, &Spread)| spread.residual(*difference, scatter).powi(2);
         differences.iter().zip(spreads).map(square).sum::<f64>() > degrees
     };
-    let (mut low, mut high) = SCATTER;
-    if !excess(low) {
-        return low;
+    let (least, most) = SCATTER;
+    match excess(least) {
+        true => bisect_ratio(least, most, 100, excess).1,
+        false => least,
     }
-    for _ in 0..100 {
-        let middle = (low * high).sqrt();
-        if excess(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    high
 }

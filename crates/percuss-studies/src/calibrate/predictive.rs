@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::{Counter, Observation, Problem, sampler::Sample};
 use crate::{
+    bisection::bisected,
     inputs::normal_probability,
     outcome::BandQuantity,
     statistics::{quantile, sorted},
@@ -176,17 +177,9 @@ pub(super) fn mixture_quantile(parts: &[(f64, f64)], probability: f64) -> f64 {
             .iter()
             .map(move |(mean, deviation)| mean + sign * 9.0 * deviation)
     };
-    let mut low = ends(-1.0).fold(f64::INFINITY, f64::min);
-    let mut high = ends(1.0).fold(f64::NEG_INFINITY, f64::max);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if below(middle) < probability {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
+    let low = ends(-1.0).fold(f64::INFINITY, f64::min);
+    let high = ends(1.0).fold(f64::NEG_INFINITY, f64::max);
+    bisected(low, high, 60, |y| below(y) < probability)
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ use crate::{
     model::{self, Control, Model},
     outcome::Band,
     regime::Regime,
+    solver::go_on_to_next_run,
     summary::ResultRecord,
 };
 
@@ -127,14 +128,7 @@ fn run_one(
     regime: &Regime,
     update: impl Fn(f64) -> ControlFlow<()> + Sync,
 ) -> Result<(ResultRecord, Option<String>), Error> {
-    let check = |flow: ControlFlow<()>| match flow {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(Error::Cancelled {
-            step: 0,
-            time_us: 0.0,
-        }),
-    };
-    check(update(0.0))?;
+    go_on_to_next_run(update(0.0))?;
     let record = match entry {
         Entry::Axisymmetric(_, request) => {
             let mut report = |fraction: f64| update(fraction.clamp(0.0, 1.0));
@@ -157,7 +151,7 @@ fn run_one(
             }
         }
     };
-    check(update(FINISHED))?;
+    go_on_to_next_run(update(FINISHED))?;
     Ok(record)
 }
 

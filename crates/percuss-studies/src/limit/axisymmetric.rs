@@ -15,6 +15,7 @@ use crate::{
     model::{self, Model},
     regime::at_least,
     richardson::OnMesh,
+    solver::go_on_to_next_run,
 };
 
 /// Part of the limit of the mesh before, to either side, that a finer mesh is searched in first.
@@ -222,13 +223,8 @@ fn on_mesh(
             total: entry.runs,
             fraction: 1.0,
         };
-        return match part_of(observer, runs, [from, to])(done) {
-            ControlFlow::Continue(()) => Ok(entry),
-            ControlFlow::Break(()) => Err(Error::Cancelled {
-                step: 0,
-                time_us: 0.0,
-            }),
-        };
+        go_on_to_next_run(part_of(observer, runs, [from, to])(done))?;
+        return Ok(entry);
     }
     let spent = entry.runs;
     let mut entry = run(search.range, Scan::WHOLE, runs + spent, [middle, to])?;

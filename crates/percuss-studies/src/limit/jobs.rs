@@ -17,6 +17,7 @@ use crate::{
     analytic::InputLimit,
     model::{self, Control, Model},
     regime::Regime,
+    solver::go_on_to_next_run,
 };
 
 /// Part of the limit by which the curve of residual velocities goes beyond it.
@@ -212,13 +213,7 @@ impl Job<'_, '_, '_> {
         // A caller whose callback has panicked gets its panic anyway.
         let mut board = self.board.lock().unwrap_or_else(PoisonError::into_inner);
         board.models[self.index] = change(board.models[self.index]);
-        match board.report() {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(Error::Cancelled {
-                step: 0,
-                time_us: 0.0,
-            }),
-        }
+        go_on_to_next_run(board.report())
     }
 }
 

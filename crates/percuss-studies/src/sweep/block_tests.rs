@@ -14,7 +14,7 @@ fn block_size(name: &str, samples: u64, more: &str) -> u64 {
 #[test]
 fn runs_side_by_side_fill_their_lanes() {
     let column = "[[parameter]]\nkey = 'chain.border_shear'\nvalues = [0.5]";
-    for (samples, expected) in [(5, 5), (64, 64), (132, 66), (5000, 79), (1_000_000, 1024)] {
+    for (samples, expected) in [(5, 5), (64, 16), (132, 17), (5000, 79), (1_000_000, 1024)] {
         let name = format!("lanes-{samples}");
         assert_eq!(block_size(&name, samples, column), expected, "{samples}");
     }

@@ -102,6 +102,10 @@ impl ScalarKernel {
         scenario: &Scenario,
         stop: &AtomicBool,
     ) -> Result<ResultRecord, Stopped> {
+        // A formula has no steps at which it is asked.
+        if stop.load(Ordering::Relaxed) {
+            return Err(Stopped);
+        }
         let mut observer = |_: model::Progress| match stop.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
@@ -132,9 +136,6 @@ impl ScalarKernel {
 impl Kernel for ScalarKernel {
     fn rows(&self, runs: Vec<SweepRun>, stop: &AtomicBool) -> Result<Vec<SweepRow>, Stopped> {
         let row = |run: SweepRun| {
-            if stop.load(Ordering::Relaxed) {
-                return Err(Stopped);
-            }
             let record = match run.scenario {
                 Ok(scenario) => Ok(self.record(&scenario, stop)?),
                 Err(reason) => Err(reason),

@@ -15,6 +15,7 @@ use crate::{
     check::{Check, Diagnostic},
     error::nearest,
     inputs::{Axis, Design, resolve},
+    lanes::LANES,
     model::{MODELS, model, why_unread},
 };
 
@@ -25,8 +26,8 @@ const OTHER_MODEL: &str =
 const LARGEST_BLOCK: u64 = 1024;
 /// Blocks that there are at least, where there are as many runs: they are what threads share.
 const BLOCKS: u64 = 64;
-/// Runs that a block of runs computed side by side has at least, where there are as many: fewer leave lanes empty.
-const SIDE_BY_SIDE: u64 = 64;
+/// Runs that a block of runs computed side by side has at least, where there are as many: twice the lanes, as fewer leave them empty.
+const SIDE_BY_SIDE: u64 = 2 * LANES as u64;
 
 pub(super) fn load(path: &Path) -> Result<Sweep, Error> {
     let directory = path.parent().unwrap_or(Path::new(""));

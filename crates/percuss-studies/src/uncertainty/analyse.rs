@@ -268,6 +268,7 @@ fn inputs_of(axes: &[Axis]) -> Vec<Input> {
         high: axis.at(ENDS[1]),
         label: label(axis),
         column: axis.column(),
+        words: axis.words(),
     };
     axes.iter().map(input).collect()
 }

@@ -22,6 +22,7 @@ use super::{
 use crate::{
     Error,
     axisymmetric::{AxisymmetricAnswer, ReferenceMeshes, Request, main_number},
+    bisection::bisect,
     cost,
     statistics::{mean, sorted, variance},
     summary::ResultNumber,
@@ -280,19 +281,11 @@ fn quantile_of_sums(ordered: &[f64], others: &[f64], probability: f64) -> f64 {
             .fold((f64::MAX, f64::MIN), |(low, high), other| {
                 (low.min(smallest + other), high.max(largest + other))
             });
-        let (mut low, mut high) = ends;
-        if below(low) as f64 > rank {
-            return low;
+        let has_fewer = |limit: f64| below(limit) as f64 <= rank;
+        if !has_fewer(ends.0) {
+            return ends.0;
         }
-        for _ in 0..100 {
-            let middle = f64::midpoint(low, high);
-            if below(middle) as f64 > rank {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
-        high
+        bisect(ends.0, ends.1, 100, has_fewer).1
     };
     let (low, part) = (rank.floor(), rank.fract());
     (1.0 - part) * at(low) + part * at(rank.ceil())

@@ -74,6 +74,9 @@ pub struct Input {
     /// Name of its column in tables.
     #[serde(skip)]
     pub column: String,
+    /// The words that its values stand for; none for numbers.
+    #[serde(skip)]
+    pub words: Option<Vec<String>>,
 }
 
 /// The run with every uncertain number at its median.

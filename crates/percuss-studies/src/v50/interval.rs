@@ -1,13 +1,14 @@
 //! Interval of the likelihood ratio: every V50 at which the tests are not much less likely than at the best one.
 
 use super::{Test, fit::sign, link::Link};
+use crate::bisection::bisected;
 
 /// Value that a chi-square variable of one degree of freedom stays below with a probability of 0.95.
 const CHI_SQUARE: f64 = 3.841_458_820_694_124;
 /// Spreads of the velocities beyond which an end is looked for no further.
 const FARTHEST: f64 = 1e4;
 /// Halvings that bring the place of an end, or the best scatter, to one part in 10¹³.
-const HALVINGS: usize = 45;
+const HALVINGS: u32 = 45;
 
 /// Ends of the interval [m/s], given a V50 that is as likely as any and the logarithm of its likelihood; `None` for an end that
 /// does not exist. The profile rises to that V50 and falls beyond it, for the likelihood is concave in the line that it belongs to.
@@ -33,7 +34,7 @@ pub(super) fn interval(
         while step < FARTHEST * spread {
             let far = best + direction * step;
             if outside(far) {
-                return Some(between(near, far, &outside));
+                return Some(bisected(near, far, HALVINGS, |v50| !outside(v50)));
             }
             near = far;
             step *= 1.5;
@@ -41,18 +42,6 @@ pub(super) fn interval(
         None
     };
     (end(-1.0), end(1.0))
-}
-
-/// The place where outside begins, between one that is inside and one that is not.
-fn between(mut inside: f64, mut far: f64, outside: &dyn Fn(f64) -> bool) -> f64 {
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (inside + far);
-        match outside(middle) {
-            true => far = middle,
-            false => inside = middle,
-        }
-    }
-    0.5 * (inside + far)
 }
 
 /// Largest logarithm of the likelihood at this V50 [m/s], over all scatters.
@@ -88,13 +77,7 @@ fn profile(link: Link, tests: &[Test], v50: f64) -> f64 {
     while slope(high) > 0.0 {
         high *= 2.0;
     }
-    let mut low = 0.0;
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        match slope(middle) > 0.0 {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
-    at(0.5 * (low + high))
+    at(bisected(0.0, high, HALVINGS, |steepness| {
+        slope(steepness) > 0.0
+    }))
 }

@@ -87,7 +87,13 @@ pub(super) fn compute(
     });
     let state = state.into_inner().unwrap_or_else(PoisonError::into_inner);
     state.progress.finish();
-    done?;
+    done.map_err(|failure| match failure {
+        Failure::Interrupted(_) => Failure::AnswersStopped {
+            complete: chosen.len() - due.len() + state.done,
+            wanted: chosen.len(),
+        },
+        other => other,
+    })?;
     Ok(text(state.file.ratios(), chosen.len()))
 }
 

@@ -241,6 +241,9 @@ impl Sweep {
             text += &format!(", of which part {part}/{parts} has {total}");
         }
         text += &match due {
+            0 if total == 0 => {
+                "\n  no block of runs falls to this part: take fewer parts\n".to_owned()
+            }
             0 => "\n  all rows were already computed\n".to_owned(),
             _ => {
                 let rate = rounded(due as f64 / seconds);

@@ -81,7 +81,11 @@ impl Plot {
         let (title, files) = self.draw()?;
         let files = files.iter().map(|file| file.display().to_string());
         let files = files.collect::<Vec<_>>().join(" and ");
-        output::print(&format!("{title}\nwrote {files}\n"))
+        let wrote = match files.is_empty() {
+            true => String::new(),
+            false => format!("wrote {files}\n"),
+        };
+        output::print(&format!("{title}\n{wrote}"))
     }
 
     /// Title and files of the figure.

@@ -39,9 +39,7 @@ impl FailureLaw for Spall {
     }
 
     fn check(&self, check: &mut Check<'_>) {
-        if let Some(strength) = self.strength {
-            check.quantity("strength", strength, limits::FLOW_STRESS);
-        }
+        check.quantity("strength", self.strength, limits::FLOW_STRESS);
     }
 }
 

@@ -52,15 +52,13 @@ impl TulerButcher {
                 );
             }
         }
-        if let Some(threshold) = self.threshold {
-            check.quantity("threshold", threshold, limits::FLOW_STRESS);
-        }
-        if let Some(exponent) = self.exponent {
-            check.number("exponent", exponent, limits::FAILURE_EXPONENT);
-        }
-        if let Some(time) = self.time_at_twice_threshold {
-            check.quantity("time_at_twice_threshold", time, limits::FAILURE_TIME);
-        }
+        check.quantity("threshold", self.threshold, limits::FLOW_STRESS);
+        check.number("exponent", self.exponent, limits::FAILURE_EXPONENT);
+        check.quantity(
+            "time_at_twice_threshold",
+            self.time_at_twice_threshold,
+            limits::FAILURE_TIME,
+        );
     }
 }
 

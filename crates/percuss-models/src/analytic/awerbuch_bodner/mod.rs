@@ -105,19 +105,18 @@ impl Model for AwerbuchBodner {
         let impact = impact(scenario, &case, strength);
         let limit = impact.ballistic_limit(impact.plugging_limit());
         let mut result = plate_result(self.name(), "three stages", case.speed, limit, 0.0);
-        let detail = |name, unit, value| Detail { name, unit, value };
         result.details = vec![
-            detail(
+            Detail::new(
                 "crushing stress",
                 "MPa",
                 impact.crushing_force / impact.area * 1e-6,
             ),
-            detail(
+            Detail::new(
                 "shear strength",
                 "MPa",
                 impact.rim_force / (PI * case.diameter) * 1e-6,
             ),
-            detail("mass of the plug", "g", case.plug_mass() * 1e3),
+            Detail::new("mass of the plug", "g", case.plug_mass() * 1e3),
         ];
         result.band = band(scenario, &case);
         if case.speed > 0.0 {
@@ -134,17 +133,17 @@ impl Model for AwerbuchBodner {
             result.peak_force = run.moments.iter().map(|(_, force)| *force).reduce(f64::max);
             result.end_time = Some(run.last.time);
             result.details.extend([
-                detail("plug starts to move", "us", run.plug_starts.time * 1e6),
-                detail("one body from", "us", run.one_body.time * 1e6),
-                detail("crushed thickness", "mm", run.one_body.crushed * 1e3),
-                detail("work of crushing", "J", run.last.crushing_work),
-                detail("energy lost to capture", "J", run.last.capture),
-                detail("work of shear", "J", run.last.shear_work),
+                Detail::new("plug starts to move", "us", run.plug_starts.time * 1e6),
+                Detail::new("one body from", "us", run.one_body.time * 1e6),
+                Detail::new("crushed thickness", "mm", run.one_body.crushed * 1e3),
+                Detail::new("work of crushing", "J", run.last.crushing_work),
+                Detail::new("energy lost to capture", "J", run.last.capture),
+                Detail::new("work of shear", "J", run.last.shear_work),
             ]);
             match run.contact_time {
                 Some(time) => result
                     .details
-                    .push(detail("contact time", "us", time * 1e6)),
+                    .push(Detail::new("contact time", "us", time * 1e6)),
                 None => {
                     result.depth_of_penetration = Some(run.last.depth);
                     result.time_to_rest = Some(run.last.time);

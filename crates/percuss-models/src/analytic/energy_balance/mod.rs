@@ -13,7 +13,7 @@ use super::{
     cavity_expansion::effective_yield_stress,
     dynamic_yield::mean_flow_stress,
     impact_wave::ImpactWave,
-    long_rod::{LongRod, at_rest, detail, never_yields, rests_on, sharp_and_rigid},
+    long_rod::{LongRod, at_rest, never_yields, rests_on, sharp_and_rigid},
     rod_flow::RodFlow,
 };
 use crate::{
@@ -165,25 +165,25 @@ fn details(scenario: &Scenario, motion: &Motion, stop: &Stop) -> Vec<Detail> {
     let percent = |part: f64| 100.0 * part / energy;
     let volume = shares.target() / motion.target.deep();
     vec![
-        detail("projectile strength", "MPa", motion.rod.strength * 1e-6),
-        detail("target flow stress", "MPa", motion.target.strength * 1e-6),
-        detail(
+        Detail::new("projectile strength", "MPa", motion.rod.strength * 1e-6),
+        Detail::new("target flow stress", "MPa", motion.target.strength * 1e-6),
+        Detail::new(
             "energy per crater volume",
             "MPa",
             motion.target.deep() * 1e-6,
         ),
-        detail(
+        Detail::new(
             "energy: plastic work in the rod",
             "%",
             percent(shares.rod_plastic),
         ),
-        detail("energy: debris of the rod", "%", percent(shares.debris)),
-        detail("energy: first contact", "%", percent(shares.shock)),
-        detail("energy: pressing the target", "%", percent(shares.pressing)),
-        detail("energy: flow of the target", "%", percent(shares.flow)),
-        detail("energy: balance error", "", shares.total() / energy - 1.0),
-        detail("crater volume", "cm3", volume * 1e6),
-        detail("crater floor to rod diameter", "", stop.spread.sqrt()),
-        detail("depth after the rod flows", "mm", stop.after_erosion * 1e3),
+        Detail::new("energy: debris of the rod", "%", percent(shares.debris)),
+        Detail::new("energy: first contact", "%", percent(shares.shock)),
+        Detail::new("energy: pressing the target", "%", percent(shares.pressing)),
+        Detail::new("energy: flow of the target", "%", percent(shares.flow)),
+        Detail::new("energy: balance error", "", shares.total() / energy - 1.0),
+        Detail::new("crater volume", "cm3", volume * 1e6),
+        Detail::new("crater floor to rod diameter", "", stop.spread.sqrt()),
+        Detail::new("depth after the rod flows", "mm", stop.after_erosion * 1e3),
     ]
 }

@@ -9,12 +9,12 @@ use self::{motion::Motion, zone::Zone};
 use super::{
     cavity_expansion::CavityExpansion,
     impact_wave::ImpactWave,
-    long_rod::{LongRod, at_rest, detail, never_yields, rests_on, sharp_and_rigid, strength},
+    long_rod::{LongRod, at_rest, never_yields, rests_on, sharp_and_rigid, strength},
     rod_flow::RodFlow,
 };
 use crate::{
     Error, Refusal, Scenario,
-    outcome::{BandQuantity, RunResult},
+    outcome::{BandQuantity, Detail, RunResult},
     regime::TargetKind,
     solver::{Control, Model},
     units::{Length, Pressure},
@@ -146,18 +146,18 @@ impl Model for MomentumBalance {
         };
         let extent = motion.zone.extent(stop.first_speed);
         result.details = vec![
-            detail("projectile strength", "MPa", motion.rod.strength * 1e-6),
-            detail("target flow stress", "MPa", motion.zone.strength * 1e-6),
-            detail("crater radius", "mm", motion.radius * 1e3),
-            detail("floor speed at impact", "m/s", stop.first_speed),
-            detail("extent of the plastic zone at impact", "", extent),
-            detail(
+            Detail::new("projectile strength", "MPa", motion.rod.strength * 1e-6),
+            Detail::new("target flow stress", "MPa", motion.zone.strength * 1e-6),
+            Detail::new("crater radius", "mm", motion.radius * 1e3),
+            Detail::new("floor speed at impact", "m/s", stop.first_speed),
+            Detail::new("extent of the plastic zone at impact", "", extent),
+            Detail::new(
                 "target resistance at impact",
                 "MPa",
                 motion.zone.resistance(extent) * 1e-6,
             ),
-            detail("depth after the erosion", "mm", stop.after_erosion * 1e3),
-            detail("momentum balance error", "", stop.balance_error),
+            Detail::new("depth after the erosion", "mm", stop.after_erosion * 1e3),
+            Detail::new("momentum balance error", "", stop.balance_error),
         ];
         result.warnings.push(rests_on(
             motion.rod.strength,

@@ -3,14 +3,14 @@
 use super::{
     super::{
         impact_wave::ImpactWave,
-        long_rod::{STOPPED, USED_UP, erosion_ends, failure},
+        long_rod::{STOPPED, USED_UP, erosion_ends, failure, flattened},
         moving_mass::MovingMass,
         ode::{FinalState, Problem},
         rod_flow::RodFlow,
     },
     zone::Zone,
 };
-use crate::error::NumericalError;
+use crate::{bisection::bisected, error::NumericalError};
 
 /// Error of a step as a part of the quantity.
 const TOLERANCE: f64 = 1e-9;
@@ -80,16 +80,7 @@ impl Motion {
         if excess(0.0) <= 0.0 {
             return 0.0;
         }
-        let (mut low, mut high) = (0.0, speed);
-        for _ in 0..BISECTIONS {
-            let middle = f64::midpoint(low, high);
-            if excess(middle) > 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        f64::midpoint(low, high)
+        bisected(0.0, speed, BISECTIONS, |floor| excess(floor) > 0.0)
     }
 
     fn rates(
@@ -211,10 +202,8 @@ impl Motion {
             balance_error: 0.0,
         };
         let (density, strength) = (self.rod.density, self.rod.strength);
-        let flattened =
-            |left: f64, tail: f64| left * (-0.5 * density * tail * tail / strength).exp();
         if first_speed <= STOPPED * speed {
-            stop.length = flattened(length, speed);
+            stop.length = flattened(length, speed, density, strength);
             return Ok(stop);
         }
         let start = self.momentum(moving, &state);
@@ -228,7 +217,7 @@ impl Motion {
             let end = self.solve(state, moving, Phase::After, (speed, length))?;
             (state, stop.time, stop.length) = (end.state, stop.time + end.time, 0.0);
         } else if state[1] <= 2.0 * STOPPED * speed {
-            stop.length = flattened(state[2], state[0]);
+            stop.length = flattened(state[2], state[0], density, strength);
         } else {
             let end = self.solve(state, moving, Phase::Rigid, (speed, length))?;
             (state, stop.time, stop.length) = (end.state, stop.time + end.time, state[2]);

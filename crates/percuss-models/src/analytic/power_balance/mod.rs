@@ -285,18 +285,17 @@ fn describe(result: &mut RunResult, impact: &Impact, run: &Perforation) {
     });
     result.peak_force = Some(run.peak_force);
     result.end_time = Some(last.time);
-    let detail = |name, unit, value| Detail { name, unit, value };
     // Of a perforated plate, once it has come to rest.
     let bulge = run.bulge.depth();
     result.details = vec![
-        detail("sunk into the plate", "mm", last.sunk * 1e3),
-        detail("deflection of the plate at the rim", "mm", bulge * 1e3),
-        detail("elastic deflection", "mm", last.flexure * 1e3),
+        Detail::new("sunk into the plate", "mm", last.sunk * 1e3),
+        Detail::new("deflection of the plate at the rim", "mm", bulge * 1e3),
+        Detail::new("elastic deflection", "mm", last.flexure * 1e3),
     ];
     if bulge > NO_BULGE * impact.thickness {
         let half = run.bulge.half_radius().map(|radius| {
             let name = "radius at half the deflection of the rim";
-            detail(name, "mm", radius * 1e3)
+            Detail::new(name, "mm", radius * 1e3)
         });
         result.details.extend(half);
         result.shapes = Some(Shapes {
@@ -306,23 +305,23 @@ fn describe(result: &mut RunResult, impact: &Impact, run: &Perforation) {
     }
     if impact.nose == Nose::Flat {
         result.details.extend([
-            detail("mass of the plug", "g", impact.plug_mass(last) * 1e3),
-            detail("slip of the plug", "mm", last.slip * 1e3),
-            detail("width of the band at the rim", "mm", last.rim.width * 1e3),
-            detail("work at the rim", "J", last.rim_work),
+            Detail::new("mass of the plug", "g", impact.plug_mass(last) * 1e3),
+            Detail::new("slip of the plug", "mm", last.slip * 1e3),
+            Detail::new("width of the band at the rim", "mm", last.rim.width * 1e3),
+            Detail::new("work at the rim", "J", last.rim_work),
         ]);
     }
     result.details.extend([
-        detail("work of the local field", "J", last.local_work),
-        detail("work of bending and stretching", "J", last.dish_work),
-        detail("energy of elastic waves", "J", last.wave_work),
-        detail("energy of displaced metal", "J", last.displaced),
-        detail("energy lost where bodies join", "J", last.capture),
+        Detail::new("work of the local field", "J", last.local_work),
+        Detail::new("work of bending and stretching", "J", last.dish_work),
+        Detail::new("energy of elastic waves", "J", last.wave_work),
+        Detail::new("energy of displaced metal", "J", last.displaced),
+        Detail::new("energy lost where bodies join", "J", last.capture),
     ]);
     let names = ["plate bulges from", "plug slips from"];
     for (name, time) in names.into_iter().zip(run.stages) {
         if let Some(time) = time {
-            result.details.push(detail(name, "us", time * 1e6));
+            result.details.push(Detail::new(name, "us", time * 1e6));
         }
     }
     if run.perforated {
@@ -330,11 +329,11 @@ fn describe(result: &mut RunResult, impact: &Impact, run: &Perforation) {
             let plug = last.velocities[1];
             result
                 .details
-                .push(detail("velocity of the plug", "m/s", plug));
+                .push(Detail::new("velocity of the plug", "m/s", plug));
         }
         result
             .details
-            .push(detail("contact time", "us", last.time * 1e6));
+            .push(Detail::new("contact time", "us", last.time * 1e6));
     } else {
         result.depth_of_penetration = Some(last.sunk + last.slip + bulge);
         result.time_to_rest = Some(last.time);

@@ -5,7 +5,7 @@ use crate::{
     error::NumericalError,
 };
 
-use super::super::long_rod::failure;
+use super::super::long_rod::{failure, flattened};
 
 /// Part of the length at which a rod counts as used up: with strength it never is, as its length falls exponentially.
 const USED_UP: f64 = 1e-9;
@@ -135,9 +135,8 @@ impl Rods {
                 stop.depth += stop.rigid_depth;
                 stop.time += self.rigid_time(eroded_speed, left);
             } else {
-                // U = 0: L dV/dt = −Y/ρ_p and dL/dt = −V have the integral L exp(−ρ_p V²/2Y).
-                let energy = 0.5 * self.projectile_density * eroded_speed * eroded_speed;
-                stop.length *= (-energy / self.projectile_strength).exp();
+                let (density, strength) = (self.projectile_density, self.projectile_strength);
+                stop.length = flattened(left, eroded_speed, density, strength);
             }
         }
         if stop.length <= USED_UP * length {

@@ -9,12 +9,12 @@ pub use equations::{Phase, Rods, Stop};
 
 use super::{
     deep_penetration::never_yields,
-    long_rod::{LongRod, NOT_ONE_TARGET, at_rest, detail, rests_on, sharp_and_rigid, strength},
+    long_rod::{LongRod, NOT_ONE_TARGET, at_rest, rests_on, sharp_and_rigid, strength},
 };
 use crate::{
     Error, Refusal, Scenario,
     material::{Material, MaterialClass, cavity_expansion_pressure},
-    outcome::{Band, BandQuantity, RunResult},
+    outcome::{Band, BandQuantity, Detail, RunResult},
     regime::{ProjectileRegime, STRENGTH_STRAIN, TargetKind},
     solver::{Control, Model},
     units::Pressure,
@@ -194,20 +194,20 @@ impl Model for Tate {
         result.end_time = result.time_to_rest;
         result.band = band(scenario, &rod, rods, stop.depth)?;
         result.details = vec![
-            detail(
+            Detail::new(
                 "projectile strength Y",
                 "MPa",
                 rods.projectile_strength * 1e-6,
             ),
-            detail("target resistance R", "MPa", rods.target_resistance * 1e-6),
-            detail("threshold speed", "m/s", rods.threshold()),
-            detail(
+            Detail::new("target resistance R", "MPa", rods.target_resistance * 1e-6),
+            Detail::new("threshold speed", "m/s", rods.threshold()),
+            Detail::new(
                 "hydrodynamic P/L",
                 "",
                 (rods.projectile_density / rods.target_density).sqrt(),
             ),
-            detail("depth made rigid", "mm", stop.rigid_depth * 1e3),
-            detail(
+            Detail::new("depth made rigid", "mm", stop.rigid_depth * 1e3),
+            Detail::new(
                 "tail speed at the end of erosion",
                 "m/s",
                 stop.hand_over_speed,
@@ -216,8 +216,8 @@ impl Model for Tate {
         if rods.phase(rod.speed) == Phase::Eroding {
             let speed = rods.penetration_speed(rod.speed);
             result.details.extend([
-                detail("initial penetration speed U", "m/s", speed),
-                detail("steady P/L", "", speed / rods.erosion_speed(rod.speed)),
+                Detail::new("initial penetration speed U", "m/s", speed),
+                Detail::new("steady P/L", "", speed / rods.erosion_speed(rod.speed)),
             ]);
         }
         let options = &scenario.options.tate;

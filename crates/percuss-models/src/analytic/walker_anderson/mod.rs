@@ -11,13 +11,13 @@ use flow::Flow;
 use motion::Motion;
 
 use super::{
-    long_rod::{LongRod, at_rest, detail, rests_on, sharp_and_rigid, strength},
+    long_rod::{LongRod, at_rest, rests_on, sharp_and_rigid, strength},
     tate::LONG_ROD,
 };
 use crate::{
     Error, Refusal, Scenario,
     material::Material,
-    outcome::{BandQuantity, RunResult},
+    outcome::{BandQuantity, Detail, RunResult},
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
     units::{Length, significant},
@@ -169,27 +169,27 @@ impl Model for WalkerAnderson {
         let stop = motion.penetrate(rod.speed, rod.length)?;
         let mut result = at_rest(self.name(), "", &rod, (stop.depth, stop.length));
         rod.set_final(scenario, stop.length, &mut result);
-        result.time_to_rest = Some(stop.time);
-        result.end_time = Some(stop.time);
+        result.time_to_rest = stop.time;
+        result.end_time = stop.time;
         let tip = motion.tip_speed_at_impact(rod.speed);
         let alpha = motion.target.extent(tip).alpha;
         result.details = vec![
-            detail("projectile strength", "MPa", motion.strength * 1e-6),
-            detail("target strength", "MPa", motion.target.strength * 1e-6),
-            detail("crater radius", "mm", motion.crater_radius * 1e3),
-            detail("tip speed at impact", "m/s", tip),
-            detail("extent of the plastic zone at impact", "", alpha),
-            detail(
+            Detail::new("projectile strength", "MPa", motion.strength * 1e-6),
+            Detail::new("target strength", "MPa", motion.target.strength * 1e-6),
+            Detail::new("crater radius", "mm", motion.crater_radius * 1e3),
+            Detail::new("tip speed at impact", "m/s", tip),
+            Detail::new("extent of the plastic zone at impact", "", alpha),
+            Detail::new(
                 "target resistance at impact",
                 "MPa",
                 motion.target.resistance(alpha) * 1e-6,
             ),
-            detail(
+            Detail::new(
                 "tip speed at the end of erosion",
                 "m/s",
                 stop.hand_over_speed,
             ),
-            detail("depth made rigid", "mm", stop.rigid_depth * 1e3),
+            Detail::new("depth made rigid", "mm", stop.rigid_depth * 1e3),
         ];
         warnings.push(rests_on(
             motion.strength,

@@ -140,11 +140,9 @@ pub(super) fn complete(cavity: &Cavity<'_>, result: &mut RunResult, monitor: &Ru
     result.details = of_cracks(state.cracks.len(), state.cracks.first().copied());
     let plane_impact = forces::plane_impact_force(scenario);
     if let Some(force) = plane_impact {
-        result.details.push(Detail {
-            name: PLANE_IMPACT,
-            unit: "kN",
-            value: force * 1e-3,
-        });
+        result
+            .details
+            .push(Detail::new(PLANE_IMPACT, "kN", force * 1e-3));
     }
     let [plastic_strain, strain_rate, temperature] = state.rod.reached();
     let reached = Reached {

@@ -11,12 +11,7 @@ pub use column::{Boundary, CellState, Layer, Medium, PlanarGrid, Solid};
 
 pub(super) use run::{PlanarRun, cells, expected, not_applicable};
 
-use crate::options::ArtificialViscosity;
+use crate::options::{ArtificialViscosity, FdmOptions};
 
 /// Artificial viscosity of a planar impact when a case gives none.
-pub const DEFAULT_VISCOSITY: ArtificialViscosity = ArtificialViscosity {
-    linear: 0.1,
-    quadratic: 2.0,
-};
-/// Cells along the projectile when a case gives none.
-pub(super) const DEFAULT_CELLS: u32 = 200;
+pub const DEFAULT_VISCOSITY: ArtificialViscosity = FdmOptions::PLANAR_VISCOSITY;

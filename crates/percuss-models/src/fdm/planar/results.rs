@@ -38,15 +38,18 @@ fn edge_release(impact: &PlanarImpact<'_>) -> f64 {
 
 fn details(impact: &PlanarImpact<'_>) -> Vec<Detail> {
     let (scenario, grid) = (impact.scenario, &impact.grid);
-    let detail = |name, unit, value| Detail { name, unit, value };
-    let mut details = vec![detail(
+    let mut details = vec![Detail::new(
         "edge release reaches the axis",
         "us",
         edge_release(impact) * 1e6,
     )];
     if let Some(force) = impact.interface.plateau() {
         let stress = force / scenario.projectile.area();
-        details.push(detail("interface stress, plateau", "GPa", stress * 1e-9));
+        details.push(Detail::new(
+            "interface stress, plateau",
+            "GPa",
+            stress * 1e-9,
+        ));
     }
     let front = match &scenario.target {
         TargetBody::Layers { layers, .. } => layers.first().map(|plate| &*plate.material),
@@ -54,31 +57,31 @@ fn details(impact: &PlanarImpact<'_>) -> Vec<Detail> {
     };
     let projectile = &scenario.projectile.material;
     if let Some((speed, pressure)) = impedance_match(projectile, front, scenario.impact_velocity) {
-        details.push(detail("impedance match: particle speed", "m/s", speed));
-        details.push(detail(
+        details.push(Detail::new("impedance match: particle speed", "m/s", speed));
+        details.push(Detail::new(
             "impedance match: pressure without strength",
             "GPa",
             pressure * 1e-9,
         ));
     }
     if impact.back.free {
-        details.push(detail(
+        details.push(Detail::new(
             "largest speed of the rear face",
             "m/s",
             impact.back.largest,
         ));
     }
-    details.push(detail("spall planes", "", grid.spalls.len() as f64));
+    details.push(Detail::new("spall planes", "", grid.spalls.len() as f64));
     if let Some(first) = grid.spalls.first() {
-        details.push(detail(
+        details.push(Detail::new(
             "first spall plane, below the struck face",
             "mm",
             first.position * 1e3,
         ));
-        details.push(detail("first spall", "us", first.time * 1e6));
+        details.push(Detail::new("first spall", "us", first.time * 1e6));
         if impact.back.free {
             let pull_back = impact.back.largest - impact.back.smallest_after;
-            details.push(detail("pull-back of the rear face", "m/s", pull_back));
+            details.push(Detail::new("pull-back of the rear face", "m/s", pull_back));
         }
     }
     details

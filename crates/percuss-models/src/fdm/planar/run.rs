@@ -3,8 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    DEFAULT_CELLS, DEFAULT_VISCOSITY, column::Medium, interface::InterfaceForce, law::PlanarLaw,
-    results,
+    DEFAULT_VISCOSITY, column::Medium, interface::InterfaceForce, law::PlanarLaw, results,
 };
 use crate::{
     Error, Refusal, Scenario,
@@ -122,25 +121,17 @@ fn law(material: &Material, scenario: &Scenario) -> Option<PlanarLaw> {
 /// Cells along the projectile and through the target.
 pub(in crate::fdm) fn cells(scenario: &Scenario) -> (u32, u32) {
     let options = &scenario.options.fdm;
-    let projectile = options.projectile_elements.unwrap_or(DEFAULT_CELLS);
+    let projectile = options
+        .projectile_elements
+        .unwrap_or(FdmOptions::PLANAR_ELEMENTS);
     let size = scenario.projectile.length / f64::from(projectile);
-    let natural = (target_length(scenario) / size)
+    let natural = (scenario.modelled_length() / size)
         .ceil()
         .clamp(1.0, MOST_CELLS);
     (
         projectile,
         options.target_elements.unwrap_or(natural as u32),
     )
-}
-
-fn target_length(scenario: &Scenario) -> f64 {
-    match &scenario.target {
-        TargetBody::Layers { layers, .. } => layers
-            .iter()
-            .map(|plate| modelled_thickness(plate, scenario))
-            .sum(),
-        _ => 0.0,
-    }
 }
 
 fn slab(law: PlanarLaw, start: f64, length: f64, cells: usize) -> Slab<PlanarLaw> {
@@ -168,7 +159,7 @@ fn build(scenario: &Scenario) -> Option<(Grid<PlanarLaw>, f64, InterfaceForce)> 
         TargetBody::Layers {
             layers, back_face, ..
         } => {
-            let total = target_length(scenario);
+            let total = scenario.modelled_length();
             let mut start = 0.0;
             for plate in layers {
                 let law = law(&plate.material, scenario)?;
@@ -217,7 +208,7 @@ pub(in crate::fdm) fn expected(scenario: &Scenario) -> (f64, Limits) {
     let of_rod = rod.length / speed(&rod.material);
     let (mut passage, mut step) = (of_rod, of_rod / f64::from(projectile));
     if let TargetBody::Layers { layers, .. } = &scenario.target {
-        let size = target_length(scenario) / f64::from(target);
+        let size = scenario.modelled_length() / f64::from(target);
         for plate in layers {
             let speed = speed(&plate.material);
             passage += modelled_thickness(plate, scenario) / speed;

@@ -6,7 +6,7 @@ use super::law::RodLaw;
 use crate::{
     fdm::grid::{BoundaryCondition, Grid, Slab},
     material::Material,
-    options::{ChainOptions, ConstraintFactor, FdmOptions, constraint_factor},
+    options::{ChainOptions, FdmOptions, constraint_factor},
     problem::RearFaceCondition,
     scenario::{Scenario, TargetBody, modelled_thickness},
 };
@@ -73,11 +73,11 @@ pub(super) fn build(scenario: &Scenario, options: &FdmOptions) -> Grid<RodLaw> {
             let area = PI * column_diameter * column_diameter / 4.0;
             let factor = options
                 .constraint_factor
-                .unwrap_or(ConstraintFactor::Value(2.7));
+                .unwrap_or_else(|| ChainOptions::default().constraint_factor());
             let shear = options
                 .border_shear
                 .unwrap_or_else(|| ChainOptions::default().border_shear());
-            let total = target_length(scenario);
+            let total = scenario.modelled_length();
             let all = f64::from(
                 options
                     .target_elements
@@ -123,15 +123,4 @@ pub(super) fn build(scenario: &Scenario, options: &FdmOptions) -> Grid<RodLaw> {
         }
     }
     grid
-}
-
-/// Length of the column of target that is modelled [m].
-pub(super) fn target_length(scenario: &Scenario) -> f64 {
-    match &scenario.target {
-        TargetBody::Layers { layers, .. } => layers
-            .iter()
-            .map(|plate| modelled_thickness(plate, scenario))
-            .sum(),
-        _ => 0.0,
-    }
 }

@@ -1,6 +1,6 @@
 //! From the grid at the end of a run to its result.
 
-use super::{mesh, run::Rod};
+use super::run::Rod;
 use crate::{
     fdm::{audit::REST_FRACTION, warnings::of_materials},
     options::ChainOptions,
@@ -8,7 +8,7 @@ use crate::{
     scenario::TargetBody,
     solver::monitor::RunMonitor,
     units::significant,
-    validity::pushed_column_warning,
+    validity::{border_shear_warning, column_mesh_warnings, pushed_column_warning},
 };
 
 /// Strain beyond which a cell would have eroded in the chain.
@@ -111,11 +111,10 @@ fn warnings(rod: &Rod<'_>, result: &RunResult) -> Vec<String> {
     let heated = scenario.options.chain.adiabatic_heating();
     let mut bodies = of_materials(scenario, grid, heated).into_iter();
     warnings.extend(bodies.next().into_iter().flatten());
-    let TargetBody::Layers { layers, .. } = &scenario.target else {
+    if scenario.layers().is_empty() {
         return warnings;
-    };
-    let length = mesh::target_length(scenario);
-    let cell = length
+    }
+    let cell = scenario.modelled_length()
         / f64::from(
             rod.options
                 .target_elements
@@ -126,27 +125,8 @@ fn warnings(rod: &Rod<'_>, result: &RunResult) -> Vec<String> {
         .border_shear
         .unwrap_or_else(|| ChainOptions::default().border_shear());
     let depth = result.depth_of_penetration.unwrap_or(0.0);
-    if shear > 0.0 {
-        warnings.push(format!(
-            "the result depends on the target resistance model (constraint factor and border shear C = {}): `fdm.border_shear = 0.0` gives \
-             the other end of the range",
-            significant(shear, 4)
-        ));
-    }
-    if depth > 0.0 && depth < cell {
-        warnings.push(format!(
-            "the depth ({} mm) is less than one target cell ({} mm): see `percuss converge`",
-            significant(depth * 1e3, 3),
-            significant(cell * 1e3, 3)
-        ));
-    }
-    let semi_infinite = layers.iter().any(|plate| plate.thickness.is_none());
-    if semi_infinite && depth > 0.75 * length {
-        warnings.push(format!(
-            "the depth is close to the {} mm that stand for a semi-infinite target: give a thickness",
-            significant(length * 1e3, 3)
-        ));
-    }
+    warnings.extend(border_shear_warning("fdm", shear));
+    warnings.extend(column_mesh_warnings(scenario, depth, "cell", cell));
     warnings.extend(bodies.flatten());
     warnings
 }

@@ -317,18 +317,17 @@ impl<'a> Solver<'a> for Collision<'a> {
 impl Collision<'_> {
     fn details(&self) -> Vec<Detail> {
         let [first, second] = &self.state.balls;
-        let detail = |name, unit, value| Detail { name, unit, value };
         let approach = self.state.largest_approach * 1e6;
         // Angular velocities are given as that of an oblique projectile of the lattice: positive from the depth to `x`.
         let mut details = vec![
-            detail("largest approach", "um", approach),
-            detail("angular velocity of the projectile", "rad/s", -first.spin),
+            Detail::new("largest approach", "um", approach),
+            Detail::new("angular velocity of the projectile", "rad/s", -first.spin),
         ];
         if self.is_free() {
             let [x, z] = second.velocity;
             details.extend([
-                detail("velocity of the target", "m/s", x.hypot(z)),
-                detail("angular velocity of the target", "rad/s", -second.spin),
+                Detail::new("velocity of the target", "m/s", x.hypot(z)),
+                Detail::new("angular velocity of the target", "rad/s", -second.spin),
             ]);
         }
         details

@@ -278,15 +278,14 @@ impl Bonded<3> for CubicBody {
 
     fn details(&self, scenario: &Scenario, inertia: &Inertia) -> Vec<Detail> {
         let extent = super::super::setup::extent(scenario);
-        let detail = |name, unit, value| Detail { name, unit, value };
         let section = match super::super::setup::is_plate(scenario) {
             true => extent.width * extent.width,
             false => std::f64::consts::FRAC_PI_4 * extent.width * extent.width,
         };
         vec![
-            detail("mass of the projectile", "kg", inertia.mass),
-            detail("width of the lattice", "mm", self.width() * 1e3),
-            detail(
+            Detail::new("mass of the projectile", "kg", inertia.mass),
+            Detail::new("width of the lattice", "mm", self.width() * 1e3),
+            Detail::new(
                 "volume of the lattice over that of the body",
                 "",
                 self.volume / (extent.length * section),

@@ -263,10 +263,9 @@ impl Bonded<2> for StressBody {
     }
 
     fn extremes_in_words(&self, stretch: f64, tension: f64) -> Vec<Detail> {
-        let detail = |name, unit, value| Detail { name, unit, value };
         vec![
-            detail("largest tension", "MPa", tension * 1e-6),
-            detail("smallest stretch of a triangle", "", 1.0 - stretch),
+            Detail::new("largest tension", "MPa", tension * 1e-6),
+            Detail::new("smallest stretch of a triangle", "", 1.0 - stretch),
         ]
     }
 

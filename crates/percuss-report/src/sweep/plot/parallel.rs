@@ -16,11 +16,13 @@ use crate::{
 /// Largest number of drawn lines.
 const LINES: usize = 1200;
 /// Height of the figure [px].
-const HEIGHT: f64 = 500.0;
+const HEIGHT: f64 = 520.0;
 /// Least distance of axes [px].
 const APART: f64 = 128.0;
 /// Space around the axes: left, right, top, bottom [px].
-const MARGINS: [f64; 4] = [78.0, 92.0, 118.0, 62.0];
+const MARGINS: [f64; 4] = [78.0, 118.0, 138.0, 62.0];
+/// More space at the left for words on the first axis [px].
+const WORDS: f64 = 56.0;
 /// Width of the bar of colours [px].
 const BAR: f64 = 14.0;
 /// Places of runs without a result, below the axis of results [px].
@@ -30,19 +32,21 @@ const BELOW: [f64; 2] = [20.0, 36.0];
 pub(super) fn draw(data: &Data<'_>) -> Figure {
     let varied = data.varied();
     let gaps = varied.len().max(1) as f64;
-    let width = figure_width::pixels().max(MARGINS[0] + MARGINS[1] + APART * gaps);
-    let apart = (width - MARGINS[0] - MARGINS[1]) / gaps;
-    let at = |axis: usize| MARGINS[0] + apart * axis as f64;
+    let starts_with_words = varied.first().is_some_and(|i| !data.is_numeric(*i));
+    let left = MARGINS[0] + if starts_with_words { WORDS } else { 0.0 };
+    let width = figure_width::pixels().max(left + MARGINS[1] + APART * gaps);
+    let apart = (width - left - MARGINS[1]) / gaps;
+    let at = |axis: usize| left + apart * axis as f64;
     let scales: Vec<Scale> = varied
         .iter()
         .map(|i| Scale::of_parameter(data, *i))
         .collect();
     let number = Scale::new(data.rows.values.iter().copied(), false);
     let runs = data.rows.values.len();
-    let every = runs.div_ceil(LINES).max(1);
+    let drawn: Vec<usize> = (0..runs).filter(|run| is_drawn(*run, runs)).collect();
     let mut drawing = Drawing::new(width, HEIGHT);
     for wanted in [true, false] {
-        for run in (0..runs).step_by(every) {
+        for &run in &drawn {
             let value = data.rows.values[run];
             if value.is_finite() != wanted {
                 continue;
@@ -97,9 +101,9 @@ pub(super) fn draw(data: &Data<'_>) -> Figure {
             drawing.text(at, &format!("{what} ({count})"), text);
         }
     }
-    let more = match every {
-        1 => String::new(),
-        _ => format!("1 of {every} lines drawn"),
+    let more = match drawn.len() < runs {
+        false => String::new(),
+        true => format!("{} of {runs} lines drawn", drawn.len()),
     };
     let texts = (&*data.title(), &*data.caption(&more));
     drawing.finish(data.name(PlotStyle::Parallel), texts, [30.0, 52.0])
@@ -111,6 +115,12 @@ fn in_parentheses(unit: &str) -> String {
         "" => String::new(),
         unit => format!("({unit})"),
     }
+}
+
+/// Whether a run is among the lines of a figure. Every n-th one would follow the pattern of a grid or of Sobol' points: the fractions of the
+/// multiples of √2 follow none.
+fn is_drawn(run: usize, runs: usize) -> bool {
+    (run as f64 * std::f64::consts::SQRT_2).fract() * (runs as f64) < LINES as f64
 }
 
 /// Offset of a line around its word, so that not all lines pass through one point.
@@ -246,4 +256,29 @@ fn halves(name: &str) -> (String, String) {
 fn hex(part: f64) -> String {
     let [r, g, b] = palette::sequential(part);
     format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every 18th of Sobol' points lies in one half of the first parameter, and every tenth point of a grid of ten in one column.
+    #[test]
+    fn the_lines_of_a_large_design_are_spread_over_every_parameter() {
+        let runs = 20_480;
+        let drawn: Vec<usize> = (0..runs).filter(|run| is_drawn(*run, runs)).collect();
+        assert!(drawn.len().abs_diff(LINES) < 30, "{}", drawn.len());
+        for period in [2, 4, 8, 10, 16, 18, 25, 64] {
+            for place in 0..period {
+                let count = drawn.iter().filter(|run| *run % period == place).count();
+                let even = drawn.len() as f64 / period as f64;
+                let part = count as f64 / even;
+                assert!((0.5..1.5).contains(&part), "{period} {place}: {part}");
+            }
+        }
+        assert_eq!(
+            (0..LINES).filter(|run| is_drawn(*run, LINES)).count(),
+            LINES
+        );
+    }
 }
