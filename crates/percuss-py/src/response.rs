@@ -8,6 +8,7 @@ use percuss::{
     uncertainty::{self, Uncertainty},
 };
 use percuss_cli::{Response as CommandResponse, ResponseData, VirtualFiles};
+use percuss_report::column::word;
 use pyo3::prelude::*;
 
 use crate::{
@@ -116,11 +117,11 @@ impl Response {
     }
 
     /// Outcome of each run of an uncertainty analysis.
-    fn outcomes(&self) -> Vec<&'static str> {
+    fn outcomes(&self) -> Vec<String> {
         match &self.response.data {
             ResponseData::Uncertainty(found) => {
                 let draws = found.draws.iter();
-                draws.map(|draw| draw.outcome.describe()).collect()
+                draws.map(|draw| word(&draw.outcome)).collect()
             }
             _ => Vec::new(),
         }

@@ -221,7 +221,8 @@ def test_the_table_of_a_gauge_has_its_times() -> None:
 def test_whole_numbers_of_numpy_are_velocities() -> None:
     import numpy
 
-    found = percuss.compare(CASE, velocity=numpy.int64(200), fast=True)
+    whole: Any = numpy.int64(200)
+    found = percuss.compare(CASE, velocity=whole, fast=True)
     assert {record.impact_velocity_m_s for record in found.results} == {200.0}
     with pytest.raises(TypeError, match="velocity"):
         percuss.compare(CASE, velocity=True)

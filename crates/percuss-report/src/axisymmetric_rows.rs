@@ -59,6 +59,8 @@ pub fn rows(answer: &AxisymmetricAnswer, beside: Option<&ResultRecord>) -> Vec<R
     if let Some((record, own)) = beside.and_then(|record| Some((record, record.value(quantity)?))) {
         let difference = match value {
             0.0 => String::new(),
+            // A part of a number that may as well be zero says nothing.
+            _ if answer.uncertainty.is_some_and(|error| error >= value.abs()) => String::new(),
             _ => format!(", {} %", signed_percent(own / value - 1.0)),
         };
         let kind = match record.model {

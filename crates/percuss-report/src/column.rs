@@ -123,7 +123,7 @@ impl<R> Column<R> {
 }
 
 /// The name that a value has in JSON, which tables have too; empty when there is none.
-pub(crate) fn word(value: &impl Serialize) -> String {
+pub fn word(value: &impl Serialize) -> String {
     // Words and numbers always make JSON.
     let json = serde_json::to_string(value).unwrap_or_default();
     json.trim_matches('"').replace("null", "")

@@ -101,7 +101,8 @@ class Case:
             for part in way:
                 table = table[int(part)] if isinstance(table, list) else table.setdefault(part, {})
                 if not isinstance(table, (dict, list)):
-                    raise UsageError(f"`{'.'.join((*way, last))}` is no key of a case: `{part}` is a value, and has no keys")
+                    key = ".".join(str(name) for name in (*way, last))
+                    raise UsageError(f"`{key}` is no key of a case: `{part}` is a value, and has no keys")
             table[int(last) if isinstance(table, list) else last] = value.to_dict() if isinstance(value, parts.Part) else value
         return _percuss.Case.from_tables(self.name, tables, self._native.folder)
 

@@ -184,8 +184,15 @@ def calibrated_curve(found: Calibration, curve: int, ax: Axes | None) -> Axes:
     return ax
 
 
+def _column(found: Calibration, key: str) -> str:
+    """Column of the sample with the values of a key: after those of the ensemble, the step and the walker, in the order of the parameters."""
+    if key == "scatter":
+        return key
+    return found.sample.names()[3 + [parameter.key for parameter in found.parameters].index(key)]
+
+
 def _axis(found: Calibration, name: str | None) -> tuple[str, str, float]:
-    """Column of the sample, words for an axis, and the best value."""
+    """Key of a parameter, words for an axis, and the best value."""
     if name == "scatter":
         return "scatter", "Relative scatter", float(found.scatter.best)
     parameter = found.parameter(name)
@@ -195,7 +202,7 @@ def _axis(found: Calibration, name: str | None) -> tuple[str, str, float]:
 
 def posterior(found: Calibration, name: str | None, ax: Axes | None) -> Axes:
     key, words, best = _axis(found, name)
-    values = found.sample[key]
+    values = found.sample[_column(found, key)]
     ax = new_axes(ax)
     ax.hist(values, bins="auto", density=True, color="0.8", edgecolor="white", label="posterior")
     if key != "scatter":
@@ -214,7 +221,7 @@ def pair(found: Calibration, x: str, y: str, ax: Axes | None) -> Axes:
     (x_key, x_words, x_best), (y_key, y_words, y_best) = _axis(found, x), _axis(found, y)
     sample = found.sample
     ax = new_axes(ax)
-    ax.hist2d(sample[x_key], sample[y_key], bins=60, cmap="Blues", cmin=1)
+    ax.hist2d(sample[_column(found, x_key)], sample[_column(found, y_key)], bins=60, cmap="Blues", cmin=1)
     ax.plot([x_best], [y_best], "+", color="C3", ms=12, mew=2, label="best")
     ax.set(xlabel=x_words, ylabel=y_words, title=f"model {found.model}")
     ax.legend()

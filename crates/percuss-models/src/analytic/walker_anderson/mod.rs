@@ -169,8 +169,8 @@ impl Model for WalkerAnderson {
         let stop = motion.penetrate(rod.speed, rod.length)?;
         let mut result = at_rest(self.name(), "", &rod, (stop.depth, stop.length));
         rod.set_final(scenario, stop.length, &mut result);
-        result.time_to_rest = stop.time;
-        result.end_time = stop.time;
+        result.time_to_rest = Some(stop.time);
+        result.end_time = Some(stop.time);
         let tip = motion.tip_speed_at_impact(rod.speed);
         let alpha = motion.target.extent(tip).alpha;
         result.details = vec![

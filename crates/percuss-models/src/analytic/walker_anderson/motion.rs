@@ -2,7 +2,7 @@
 
 use super::{
     super::{
-        long_rod::{STOPPED, USED_UP, erosion_ends, failure, flattened},
+        long_rod::{STOPPED, USED_UP, erosion_ends, failure},
         ode::{FinalState, IntegrationError, Problem},
     },
     flow::Flow,
@@ -41,8 +41,7 @@ pub(super) struct Stop {
     pub(super) rigid_depth: f64,
     pub(super) length: f64,
     pub(super) hand_over_speed: f64,
-    /// Time at which tip and tail rest [s]; `None` where the rod goes on flattening on the bottom of the crater.
-    pub(super) time: Option<f64>,
+    pub(super) time: f64,
 }
 
 impl Motion {
@@ -142,7 +141,7 @@ impl Motion {
     /// When an integration finds no end.
     pub(super) fn penetrate(&self, speed: f64, length: f64) -> Result<Stop, NumericalError> {
         let end = self.erode(speed, length, |_, _| ()).map_err(failure)?;
-        let [tail, tip, left, depth] = end.state;
+        let [_, tip, left, depth] = end.state;
         let mut stop = Stop {
             depth,
             rigid_depth: 0.0,
@@ -152,12 +151,9 @@ impl Motion {
                 0.0
             },
             hand_over_speed: tip,
-            time: Some(end.time),
+            time: end.time,
         };
-        if stop.length > 0.0 && tip <= 2.0 * STOPPED * speed {
-            stop.length = flattened(left, tail, self.density, self.strength);
-            stop.time = None;
-        } else if stop.length > 0.0 {
+        if tip > 2.0 * STOPPED * speed && stop.length > 0.0 {
             let rigid = Problem {
                 rates: &|&[tip, _]: &[f64; 2]| {
                     let tip = tip.max(0.0);
@@ -172,7 +168,7 @@ impl Motion {
             .map_err(failure)?;
             stop.rigid_depth = rigid.state[1];
             stop.depth += rigid.state[1];
-            stop.time = Some(end.time + rigid.time);
+            stop.time += rigid.time;
         }
         Ok(stop)
     }
