@@ -5,7 +5,7 @@ pub fn bisect(low: f64, high: f64, halvings: u32, is_below: impl FnMut(f64) -> b
     halve(low, high, halvings, f64::midpoint, is_below)
 }
 
-/// The same for positive numbers over decades: the ends' geometric mean halves their ratio.
+/// The same for positive numbers over decades: it goes to the geometric mean of the ends, which halves the logarithm of their ratio.
 pub fn bisect_ratio(
     low: f64,
     high: f64,
