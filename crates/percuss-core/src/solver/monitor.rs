@@ -57,6 +57,13 @@ pub struct BalanceError {
 }
 
 impl RunMonitor {
+    /// Depth of the crater floor when the projectile's momentum was used up, not below 0; the largest one where it never was [m].
+    pub fn depth_at_rest(&self) -> f64 {
+        // A floor that sprang back beyond the original face is no depth.
+        self.at_rest
+            .map_or(self.largest_depth, |(_, depth)| depth.max(0.0))
+    }
+
     /// Includes a step; `is_at_rest` is asked until it is true once.
     #[inline(always)]
     pub(super) fn follow(&mut self, clock: Clock, probe: Probe, is_at_rest: impl FnOnce() -> bool) {

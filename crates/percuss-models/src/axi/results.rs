@@ -21,10 +21,7 @@ pub(super) fn complete(run: &Axisymmetric<'_>, result: &mut RunResult, monitor: 
     let rod = &solver.bodies[0];
     let sums = &solver.sums[0];
     if solid {
-        let depth = monitor
-            .at_rest
-            .map_or(monitor.largest_depth, |(_, depth)| depth.max(0.0));
-        result.depth_of_penetration = Some(depth);
+        result.depth_of_penetration = Some(monitor.depth_at_rest());
         result.largest_depth = Some(monitor.largest_depth);
         result.permanent_depth = Some(run.depth.max(0.0));
     }

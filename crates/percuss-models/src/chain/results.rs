@@ -59,12 +59,7 @@ impl Results<'_> {
             TargetBody::RigidWall => None,
             // What flies has no depth.
             _ if state.left_the_plate() => None,
-            // A crater floor that sprang back beyond the original face is no depth.
-            _ => Some(
-                monitor
-                    .at_rest
-                    .map_or(monitor.largest_depth, |(_, depth)| depth.max(0.0)),
-            ),
+            _ => Some(monitor.depth_at_rest()),
         };
         result.depth_of_penetration = depth;
         result.largest_depth = depth.map(|_| monitor.largest_depth);

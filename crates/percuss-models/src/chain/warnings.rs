@@ -73,7 +73,7 @@ pub(super) fn warnings_of_cavity(
     if result.outcome == Outcome::OutOfTime {
         warnings.push(OUT_OF_TIME.to_owned());
     }
-    let depth = result.depth_of_penetration.unwrap_or(0.0);
+    let depth = result.permanent_depth.unwrap_or(0.0);
     if depth == 0.0 && scenario.impact_velocity > 0.0 {
         warnings.push("the target stays elastic: it keeps no dent".to_owned());
     }
@@ -82,9 +82,12 @@ pub(super) fn warnings_of_cavity(
     } else if depth > 0.0 {
         warnings.push(
             "the depth rests on the target resistance model `expanding-cavity`: no constant of it is fitted, but its form was selected \
-             on the grid of the benchmark, a part of the cases that its model error is estimated from"
+             with the cases in view that its model error is estimated from"
                 .to_owned(),
         );
+    }
+    if depth > 0.0 {
+        warnings.extend(warning_of_elastic_depth(result));
     }
     warnings.extend(warning_of_rear_face(scenario, depth));
     let diameter = scenario.projectile.diameter;
@@ -111,6 +114,18 @@ pub(super) fn warnings_of_cavity(
     let material = &scenario.projectile.material;
     warnings.extend(reached.warnings("projectile", material, heated));
     warnings
+}
+
+/// That a target at rest springs back by more than half its depth.
+fn warning_of_elastic_depth(result: &RunResult) -> Option<String> {
+    result.time_to_rest?;
+    let permanent = result.permanent_depth?;
+    (result.depth_of_penetration? > 2.0 * permanent).then(|| {
+        format!(
+            "most of the depth is elastic deflection, which springs back: {} mm are permanent",
+            significant(permanent * 1e3, 3)
+        )
+    })
 }
 
 /// What an expanding cavity leaves out of a rear face that is near.
@@ -175,13 +190,8 @@ fn warn_of_closure(scenario: &Scenario, result: &RunResult, warnings: &mut Vec<S
         return;
     };
     let element = scenario.modelled_length() / scenario.options.chain.target_elements() as f64;
-    let (permanent, at_rest) = (result.permanent_depth, result.time_to_rest.is_some());
-    let is_whole = layers.iter().all(|plate| plate.gap == 0.0);
-    if is_whole && at_rest && permanent.is_some_and(|permanent| depth > 2.0 * permanent) {
-        warnings.push(format!(
-            "most of the depth is elastic deflection, which springs back: {} mm are permanent",
-            significant(permanent.unwrap_or(0.0) * 1e3, 3)
-        ));
+    if layers.iter().all(|plate| plate.gap == 0.0) {
+        warnings.extend(warning_of_elastic_depth(result));
     }
     if scenario.options.chain.erosion_criterion() == ErosionCriterion::Tate {
         warnings.push(

@@ -12,7 +12,7 @@ Examples
 ... )
 >>> result = percuss.run(case)
 >>> result.outcome, round(result.depth_of_penetration_mm, 4)
-('rebounded', 0.2033)
+('rebounded', 0.208)
 """
 
 from typing import NoReturn

@@ -42,7 +42,7 @@ class Case:
     >>> case.impact_velocity_m_s
     230.0
     >>> round(percuss.run(case).depth_of_penetration_mm, 4)
-    0.2033
+    0.208
 
     Tables are attributes, whose values can be read and set; a value is checked at once, with its unit.
 

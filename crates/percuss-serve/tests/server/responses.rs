@@ -184,7 +184,7 @@ fn files_are_those_of_a_run_folder() {
 fn the_page_comes_with_its_first_answer() {
     let served = Served::new(Options::default());
     let page = served.get("/", "").text();
-    assert!(page.contains("<dt>depth of penetration</dt><dd>0.203 mm</dd>"));
+    assert!(page.contains("<dt>depth of penetration</dt><dd>0.208 mm</dd>"));
     let start = page.split("id=\"data\">").nth(1).unwrap();
     let data: Value = serde_json::from_str(start.split("</script>").next().unwrap()).unwrap();
     assert_eq!(

@@ -8,7 +8,7 @@ import { answered, complaints, number, open, paperCase, pixels, program, scratch
 
 test("the first paint shows the answer", async () => {
   const still = await open("/", { javaScriptEnabled: false });
-  assert.equal(await number(still, "depth of penetration"), "0.203 mm");
+  assert.equal(await number(still, "depth of penetration"), "0.208 mm");
   await still.context().close();
 
   const page = await open();
@@ -17,7 +17,7 @@ test("the first paint shows the answer", async () => {
   // Without the state that the address has taken on by now.
   await page.goto(new URL("/", page.url()).href);
   await answered(page, 1);
-  assert.equal(await number(page, "depth of penetration"), "0.203 mm");
+  assert.equal(await number(page, "depth of penetration"), "0.208 mm");
   for (const chart of ["depth-time", "velocity-time", "energy-time", "stress-xt"]) {
     assert.ok(await page.locator(`figure[data-chart="${chart}"] canvas`).first().isVisible(), chart);
   }

@@ -104,7 +104,7 @@ result_record! {
         impact_velocity_m_s: f64
             = number("impact velocity", Unit::M_S, Input), |case, _| case.impact_velocity;
 
-        /// Depth of the crater floor in a target that is not perforated, when the projectile's momentum is used up; of the expanding cavity, once the load is gone.
+        /// Depth of the crater floor in a target that is not perforated, when the projectile's momentum is used up.
         depth_of_penetration_mm: Option<f64>
             = number("depth of penetration", Unit::MM, Main).in_statistics(NotPerforated), |_, run| run?.depth_of_penetration;
 

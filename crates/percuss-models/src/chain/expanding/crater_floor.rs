@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::resistance::Resistance;
+use super::resistance::{FLAT_FACE, Pressures, Resistance};
 use crate::{Error, resistance::CustomResistance, solver::archive::Archive};
 
 /// Added mass of a disc that moves normal to itself, on one side of it, over `ρ a³` \[lamb1932\].
@@ -25,17 +25,19 @@ pub(super) enum TargetResistance {
 }
 
 impl TargetResistance {
-    /// Pressure on a floor [Pa] and the largest one that what lies beside it can press with, at a depth [m], a speed [m/s] and a
+    /// Pressures on a floor and the largest one that what lies beside it can press with [Pa], at a depth [m], a speed [m/s] and a
     /// density of the target [kg/m3].
-    fn pressures(&self, depth: f64, speed: f64, density: f64) -> (f64, f64) {
+    fn pressures(&self, depth: f64, speed: f64, density: f64) -> (Pressures, f64) {
         match self {
             Self::Cavity(resistance) => {
-                let drag = 0.5 * density * speed * speed;
-                (resistance.at(depth) + drag, resistance.steady())
+                let mut pressures = resistance.at(depth);
+                pressures.cavity += 0.5 * density * speed * speed;
+                (pressures, resistance.steady())
             }
             Self::Own(own) => {
-                let pressure = own.0.pressure(depth, speed);
-                (pressure, pressure)
+                let cavity = own.0.pressure(depth, speed);
+                let flat_face = 0.0;
+                (Pressures { cavity, flat_face }, cavity)
             }
         }
     }
@@ -62,7 +64,9 @@ pub(super) struct CraterFloor {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Tip {
     pub(super) area: f64,
+    /// That it flows with now, and that which it could bear [Pa].
     pub(super) flow_stress: f64,
+    pub(super) yield_stress: f64,
     pub(super) density: f64,
     /// Speed at which the projectile behind it catches up with it [m/s].
     pub(super) closing: f64,
@@ -104,19 +108,30 @@ impl CraterFloor {
         }
     }
 
-    /// Force at which it advances at its present speed [N]: the target's resistance and the pressure that turns it aside, both on
-    /// the area of the undeformed projectile, and what the projectile has spread beyond that.
+    /// Force at which it advances at its present speed [N]: on the area of the undeformed projectile the target's resistance and the
+    /// pressure that turns it aside, and what a flat face and the metal spread beyond that area add.
     ///
-    /// The spread part flows outwards and presses with its own flow stress. Of it, `½ρ_p w²` on the undeformed area belongs to the
-    /// stagnation on the axis, as in the equation of Alekseevskii and Tate, and presses on the floor.
+    /// The spread metal flows outwards and presses with its own flow stress; what a face adds, the weaker of the two metals bears. From
+    /// both the stagnation force `S = ½ρ_p w²` on the undeformed area is taken, which is on the axis and presses on the floor. Once
+    /// metal leaves the head, the stream of momentum is `2S`: half of it is the stagnation, and the other half presses beside the
+    /// floor. The floor then advances by the equation of Alekseevskii and Tate.
     pub(super) fn resistance(&self, tip: Tip) -> f64 {
-        let (pressure, largest) =
+        let (pressures, largest) =
             self.resistance_law
                 .pressures(self.depth, self.speed, self.density);
         let pressing = tip.flow_stress.min(largest);
         let stagnation = 0.5 * tip.density * self.area * tip.closing * tip.closing;
-        let spread = (tip.area - self.area).max(0.0) * pressing - stagnation;
-        self.area * pressure + spread.max(0.0)
+        let flat_face = self.area
+            * pressures
+                .flat_face
+                .min(FLAT_FACE * tip.yield_stress.max(0.0));
+        let spread = (tip.area - self.area).max(0.0) * pressing;
+        let least = if self.lost_length > 0.0 {
+            stagnation
+        } else {
+            0.0
+        };
+        self.area * pressures.cavity + (flat_face + spread - stagnation).max(least)
     }
 
     /// Kinetic energy of the target that moves with it [J].

@@ -15,6 +15,7 @@ impl State {
         Tip {
             area: slice.area(),
             flow_stress: slice.flow_stress(),
+            yield_stress: slice.yield_point.stress(),
             density: self.rod.front.metal.density,
             closing: (self.rod.front.nodes.get(0).velocity - node.velocity).max(0.0),
         }

@@ -55,8 +55,8 @@ pub(super) fn warning(
         TargetBody::Layers { layers, back_face: RearFaceCondition::Fixed, .. } if layers.iter().all(|plate| plate.thickness.is_some())
     );
     let rear = rear.then(|| {
-        "the force on the fixed rear face is that of a plate of infinite width: in the seed paper's case 22 to 47 % above that of `axi` at 5 \
-         projectile diameters of thickness, and 64 to 83 % at one"
+        "the force on the fixed rear face is that of a plate of infinite width: in the seed paper's case 26 to 41 % above that of `axi` at 5 \
+         projectile diameters of thickness, and 71 to 87 % at one"
             .to_owned()
     });
     match (peak, rear) {

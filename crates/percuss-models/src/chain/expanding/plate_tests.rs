@@ -108,7 +108,8 @@ fn the_depth_changes_steadily_with_the_thickness() {
                         resistance_model_in_use(&scenario),
                         Some(TargetResistanceModel::ExpandingCavity)
                     );
-                    depth(&scenario)
+                    // Of the crater alone: a free plate at rest is still bent and moves.
+                    run(&scenario).permanent_depth.unwrap()
                 })
                 .collect();
             let thick = depths[depths.len() - 1];
@@ -150,16 +151,16 @@ fn a_crater_that_reaches_the_rear_face_has_no_expected_error() {
 
 #[test]
 fn a_thin_free_plate_is_deeper_cratered_until_it_is_perforated() {
-    let of = |diameters| run(&plate(diameters, 600.0, ", back_face = 'free'", ""));
-    let results: Vec<RunResult> = [4.0, 3.0, 2.0, 1.5, 1.0].map(of).into();
-    for pair in results[..4].windows(2) {
+    let of = |diameters, speed| run(&plate(diameters, speed, ", back_face = 'free'", ""));
+    let results = [4.0, 3.0, 2.0, 1.5, 1.0].map(|diameters| of(diameters, 600.0));
+    for pair in results.windows(2) {
         let [thicker, thinner] = [&pair[0], &pair[1]].map(|r| r.depth_of_penetration.unwrap());
         assert!(thinner > thicker, "{thicker} {thinner}");
     }
     assert_eq!(results[0].outcome, Outcome::Rebounded);
-    let last = &results[4];
+    let faster = of(1.0, 700.0);
     assert_eq!(
-        (last.outcome, last.depth_of_penetration),
+        (faster.outcome, faster.depth_of_penetration),
         (Outcome::Perforated, None)
     );
 }
@@ -239,7 +240,7 @@ fn a_projectile_that_does_not_fail_is_one_that_cannot() {
 
 #[test]
 fn a_weak_projectile_parts_and_mass_and_momentum_are_kept() {
-    for energy in ["", "chain.fracture_energy = '2 kJ/m2'"] {
+    for energy in ["", "chain.fracture_energy = '0.5 kJ/m2'"] {
         let weak = format!("chain.failure.spall.strength = '80 MPa'\n{energy}");
         let scenario = plate(5.2, 400.0, "", &weak);
         assert_eq!(
@@ -290,7 +291,7 @@ fn a_column_by_an_option_says_so_first_and_gives_the_other_depth() {
     let first = result.target_resistance_choice.unwrap();
     assert!(first.contains("`column`: `chain.border_shear`"), "{first}");
     assert!(
-        first.contains("`expanding-cavity` gives a depth of 0.69"),
+        first.contains("`expanding-cavity` gives a depth of 0.67"),
         "{first}"
     );
 }

@@ -8,6 +8,9 @@
 //! stress, and for large ones the pressure of steady penetration. Elastic deflection `pa/2G` is taken off, with the shear modulus E/3
 //! of an incompressible body: the ground around the crater has its own.
 //!
+//! The hemisphere is no fluid: the metal between a flat face and the cavity bears more along the line of flight than across it, which
+//! adds half its flow stress to the mean pressure under an indenter \[studman1977\].
+//!
 //! A free rear face at a distance h from the crater floor ends the integral. In a sphere of the outer radius c it runs from the strain
 //! at c, where the material has moved by the same volume: `p = P(x) − P(x a³/c³)`, with P for the endless body at the advance `x = δ/a`
 //! (for a constant flow stress `2Y ln(c/a)`, as for a thick shell \[hill1950\]). In the direction θ from the line of flight the
@@ -25,8 +28,8 @@ const POINTS: usize = 400;
 #[derive(Debug)]
 pub(super) struct Resistance {
     radius: f64,
-    /// Permanent advance over the radius, rising, and pressure [Pa].
-    curve: Curve,
+    /// Permanent advance over the radius, rising, and the pressure and the flow stress at the wall of the cavity [Pa].
+    curve: Curve<2>,
     /// What a free rear face takes away, where there is one.
     relief: Option<Relief>,
     /// Elastic advance over the radius, per pressure [1/Pa].
@@ -38,8 +41,20 @@ pub(super) struct Resistance {
 struct Relief {
     thickness: f64,
     /// Whole advance over the radius, rising, and the mean `∫₀¹ P(x μ³) dμ` over all directions ahead [Pa].
-    means: Curve,
+    means: Curve<1>,
 }
+
+/// What the target sets against the floor of a crater.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Pressures {
+    /// Of the cavity [Pa].
+    pub(super) cavity: f64,
+    /// More under a flat face that is harder than the target [Pa].
+    pub(super) flat_face: f64,
+}
+
+/// Part of the flow stress by which the mean pressure under an indenter exceeds that of the cavity \[studman1977\].
+pub(super) const FLAT_FACE: f64 = 0.5;
 
 impl Resistance {
     /// Of a target at a temperature [K] under a projectile of a radius [m], at a strain rate [1/s], with a part of the plastic work as heat, and with a free rear
@@ -69,8 +84,8 @@ impl Resistance {
         let yield_strain = yield_stress / modulus;
         let twice_shear = 2.0 / 3.0 * modulus;
         let mut pressure = yield_stress / 1.5;
-        let mut curve = vec![(0.0, pressure)];
-        let mut whole = vec![((1.5 * yield_strain).exp_m1() / 1.5, pressure)];
+        let mut curve = vec![(0.0, [pressure, yield_stress])];
+        let mut whole = vec![((1.5 * yield_strain).exp_m1() / 1.5, [pressure])];
         let growth = (LARGEST_STRAIN / yield_strain).powf(1.0 / POINTS as f64);
         let mut strain = yield_strain;
         for _ in 0..POINTS {
@@ -82,10 +97,10 @@ impl Resistance {
             state.temperature += heating * stress * width;
             strain *= growth;
             let total = (1.5 * strain).exp_m1() / 1.5;
-            whole.push((total, pressure));
+            whole.push((total, [pressure]));
             let permanent = total - pressure / twice_shear;
             if permanent > curve.last().map_or(0.0, |point| point.0) {
-                curve.push((permanent, pressure));
+                curve.push((permanent, [pressure, stress]));
             }
         }
         Some(Self {
@@ -99,54 +114,62 @@ impl Resistance {
         })
     }
 
-    /// Pressure [Pa] on the floor of a crater of a permanent depth [m].
-    pub(super) fn at(&self, depth: f64) -> f64 {
+    /// On the floor of a crater of a permanent depth [m].
+    pub(super) fn at(&self, depth: f64) -> Pressures {
         let advance = depth / self.radius;
-        let pressure = self.curve.at(advance);
+        let [pressure, stress] = self.curve.at(advance);
+        let flat_face = FLAT_FACE * stress;
         let Some(relief) = &self.relief else {
-            return pressure;
+            return Pressures {
+                cavity: pressure,
+                flat_face,
+            };
         };
         let whole = advance + self.compliance * pressure;
         let distance = ((relief.thickness - depth) / self.radius).max(0.0);
         // Nearer than the radius of the cavity, it is open in all directions within h/a of the line of flight.
         let cube = distance.max(1.0).powi(3);
-        distance.min(1.0) * (pressure - relief.means.at(whole / cube))
+        let [taken] = relief.means.at(whole / cube);
+        Pressures {
+            cavity: distance.min(1.0) * (pressure - taken),
+            flat_face: distance.min(1.0) * flat_face,
+        }
     }
 
     /// Pressure of steady penetration [Pa].
     pub(super) fn steady(&self) -> f64 {
-        self.curve.points.last().map_or(0.0, |point| point.1)
+        self.curve.points.last().map_or(0.0, |point| point.1[0])
     }
 }
 
 /// `∫₀¹ P(x μ³) dμ = ⅓ x^{-1/3} ∫₀ˣ P(s) s^{-2/3} ds` at the points of P(x), which is straight from the origin to the first of them.
-fn means_over_directions(pressures: &[(f64, f64)]) -> Vec<(f64, f64)> {
+fn means_over_directions(pressures: &[(f64, [f64; 1])]) -> Vec<(f64, [f64; 1])> {
     let mut means = Vec::with_capacity(pressures.len() + 1);
     let mut before = (0.0, 0.0);
     let mut sum = 0.0;
-    means.push(before);
-    for &(x, pressure) in pressures {
+    means.push((0.0, [0.0]));
+    for &(x, [pressure]) in pressures {
         // Exact for a straight piece: P = b + k s.
         let slope = (pressure - before.1) / (x - before.0);
         let base = pressure - slope * x;
         let [from, to] = [before.0, x].map(f64::cbrt);
         sum += base * (to - from) + 0.25 * slope * (to.powi(4) - from.powi(4));
         before = (x, pressure);
-        means.push((x, sum / to));
+        means.push((x, [sum / to]));
     }
     means
 }
 
-/// Points of a curve at rising places.
+/// Points of a curve of several values at rising places.
 #[derive(Debug)]
-struct Curve {
-    points: Vec<(f64, f64)>,
+struct Curve<const N: usize> {
+    points: Vec<(f64, [f64; N])>,
     /// The first point beyond the place that was asked for last: the next one is mostly near.
     next: AtomicUsize,
 }
 
-impl Curve {
-    fn new(points: Vec<(f64, f64)>) -> Self {
+impl<const N: usize> Curve<N> {
+    fn new(points: Vec<(f64, [f64; N])>) -> Self {
         Self {
             points,
             next: AtomicUsize::new(0),
@@ -166,17 +189,18 @@ impl Curve {
         next
     }
 
-    /// Value at a place, constant beyond the ends.
-    fn at(&self, place: f64) -> f64 {
+    /// Values at a place, constant beyond the ends.
+    fn at(&self, place: f64) -> [f64; N] {
         let next = self.next_to(place);
         let Some(&(to, upper)) = self.points.get(next) else {
-            return self.points.last().map_or(0.0, |point| point.1);
+            return self.points.last().map_or([0.0; N], |point| point.1);
         };
         let (from, lower) = self.points[next.saturating_sub(1)];
         if to == from {
             return lower;
         }
-        lower + (upper - lower) * ((place - from) / (to - from)).clamp(0.0, 1.0)
+        let part = ((place - from) / (to - from)).clamp(0.0, 1.0);
+        std::array::from_fn(|k| lower[k] + (upper[k] - lower[k]) * part)
     }
 }
 
@@ -199,7 +223,8 @@ mod tests {
     #[test]
     fn it_begins_at_first_yield_and_ends_at_steady_penetration() {
         let resistance = Resistance::new(&metal(), ROOM, 2.5e-3, 1.0, 0.0, None).unwrap();
-        assert!((resistance.at(0.0) / (350e6 / 1.5) - 1.0).abs() < 1e-12);
+        assert!((resistance.at(0.0).cavity / (350e6 / 1.5) - 1.0).abs() < 1e-12);
+        assert_eq!(resistance.at(0.0).flat_face, 0.5 * 350e6);
         let steady = cavity_expansion_pressure(&metal()).unwrap();
         assert!((resistance.steady() / steady - 1.0).abs() < 2e-3);
     }
@@ -214,7 +239,7 @@ mod tests {
         let first = -(-1.5 * 350e6 / 70e9_f64).exp_m1();
         let pressure = 2.0 / 3.0 * 350e6 * (1.0 + (wall / first).ln());
         let permanent = total - pressure / (2.0 / 3.0 * 70e9);
-        let found = resistance.at(permanent * 2.5e-3);
+        let found = resistance.at(permanent * 2.5e-3).cavity;
         // The rest is the midpoint rule on strips that grow by 2 % each.
         assert!((found / pressure - 1.0).abs() < 5e-3, "{found} {pressure}");
     }
@@ -248,30 +273,31 @@ mod tests {
                 }
             })
             .sum();
-        let mean = relief.means.at(x);
+        let [mean] = relief.means.at(x);
         let expected = sum / f64::from(count);
         assert!((mean / expected - 1.0).abs() < 5e-3, "{mean} {expected}");
     }
 
     #[test]
     fn a_rear_face_far_away_takes_nothing_away_and_a_near_one_everything() {
+        let sum = |pressures: Pressures| pressures.cavity + pressures.flat_face;
         let endless = Resistance::new(&metal(), ROOM, 2.5e-3, 1.0, 0.0, None).unwrap();
         let mut before = 0.0;
         for thickness in [3e-3, 5e-3, 10e-3, 50e-3, 500e-3] {
             let plate = Resistance::new(&metal(), ROOM, 2.5e-3, 1.0, 0.0, Some(thickness)).unwrap();
-            let pressure = plate.at(1e-3);
+            let pressure = plate.at(1e-3).cavity;
             assert!(pressure > before, "{thickness}");
             before = pressure;
-            let nearly_through = plate.at(thickness - 1e-5);
+            let nearly_through = sum(plate.at(thickness - 1e-5));
             assert!(nearly_through < 0.01 * endless.steady(), "{thickness}");
-            assert_eq!(plate.at(thickness), 0.0);
+            assert_eq!(sum(plate.at(thickness)), 0.0);
             // It has no jump, not even where the cavity opens.
             for i in 1..100 {
                 let depth = 1e-2 * thickness * f64::from(i);
-                let jump = plate.at(depth + 1e-8) - plate.at(depth - 1e-8);
+                let jump = sum(plate.at(depth + 1e-8)) - sum(plate.at(depth - 1e-8));
                 assert!(jump.abs() < 1e-3 * endless.steady(), "{thickness} {depth}");
             }
         }
-        assert!((before / endless.at(1e-3) - 1.0).abs() < 1e-4);
+        assert!((before / endless.at(1e-3).cavity - 1.0).abs() < 1e-4);
     }
 }

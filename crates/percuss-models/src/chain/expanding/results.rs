@@ -129,7 +129,7 @@ pub(super) fn complete(cavity: &Cavity<'_>, result: &mut RunResult, monitor: &Ru
         state.rod.slices().map(|(slice, ..)| slice),
         &state.rod.front.size,
     );
-    result.depth_of_penetration = Some(state.floor.depth);
+    result.depth_of_penetration = Some(monitor.depth_at_rest());
     result.largest_depth = Some(monitor.largest_depth);
     result.permanent_depth = Some(state.floor.depth);
     result.residual_velocity = Some(if mass > 0.0 { momentum / mass } else { 0.0 });

@@ -2,7 +2,12 @@
 
 use std::{f64::consts::PI, sync::Arc};
 
-use super::{CavityRun, StepControl, resistance::Resistance, rod::Rod, slice::Metal};
+use super::{
+    CavityRun, StepControl,
+    resistance::{Pressures, Resistance},
+    rod::Rod,
+    slice::Metal,
+};
 use crate::{
     Scenario,
     case::{self, TargetResistanceModel},
@@ -196,7 +201,7 @@ fn the_peak_contact_force_converges_to_that_of_a_plane_impact() {
     assert!(peaks.is_sorted(), "{peaks:?}");
     // What is said of the default mesh.
     assert!(
-        (0.91..0.93).contains(&(peaks[0] / exact)),
+        (0.92..0.94).contains(&(peaks[0] / exact)),
         "{}",
         peaks[0] / exact
     );
@@ -231,7 +236,8 @@ fn an_impact_begins_in_uniaxial_strain() {
 #[test]
 fn a_slow_rod_only_dents_the_target_elastically() {
     let result = run(&scenario("s-7-tool-steel", "4340", 25.0, 5.0, ""));
-    assert_eq!(result.depth_of_penetration, Some(0.0));
+    assert_eq!(result.permanent_depth, Some(0.0));
+    assert!(result.depth_of_penetration.unwrap() > 0.0);
     assert_eq!(result.outcome, Outcome::Rebounded);
     assert!(
         result.warnings.iter().any(|w| w.contains("stays elastic")),
@@ -242,9 +248,9 @@ fn a_slow_rod_only_dents_the_target_elastically() {
 
 #[test]
 fn a_rigid_rod_is_stopped_by_the_resistance_alone() {
-    // Nothing of the rod flows and the ground is stiff against the resistance: (M + m_a) dv/dt = −A [p(δ) + ½ρv²].
-    let (speed, length) = (150.0, 50e-3);
-    let text = "[projectile]\nmaterial = \"rigid\"\nlength = \"50 mm\"\ndiameter = \"5 mm\"\nimpact_velocity = \"150 m/s\"\n\
+    // Nothing of the rod flows, its waves are faint, and the ground is stiff against the resistance: (M + m_a) dv/dt = −A [p(δ) + ½σ(δ) + ½ρv²].
+    let (speed, length) = (50.0, 50e-3);
+    let text = "[projectile]\nmaterial = \"rigid\"\nlength = \"50 mm\"\ndiameter = \"5 mm\"\nimpact_velocity = \"50 m/s\"\n\
                 [target]\nmaterial = \"soft\"\nthickness = \"semi-infinite\"\n\
                 [chain]\ntarget_resistance = \"expanding-cavity\"\nprojectile_elements = 100\n\
                 [materials.rigid]\nname = \"rigid\"\ndensity = \"7850 kg/m3\"\nyoungs_modulus = \"1500 GPa\"\npoissons_ratio = 0.3\n\
@@ -263,11 +269,48 @@ fn a_rigid_rod_is_stopped_by_the_resistance_alone() {
     let (mut depth, step) = (0.0, 1e-9);
     while velocity > 0.0 {
         let drag = 0.5 * 2700.0 * velocity * velocity;
-        velocity -= area * (resistance.at(depth) + drag) / mass * step;
+        let Pressures { cavity, flat_face } = resistance.at(depth);
+        velocity -= area * (cavity + flat_face + drag) / mass * step;
         depth += velocity * step;
     }
-    let found = result.depth_of_penetration.unwrap();
+    let found = result.permanent_depth.unwrap();
     assert!((found / depth - 1.0).abs() < 0.01, "{found} {depth}");
+}
+
+/// A perfectly plastic steel rod of a flow stress [MPa], 5 mm in diameter, on aluminium of 400 MPa.
+fn plastic_rod(flow_stress: u32, length: u32, speed: u32, elements: u32) -> Scenario {
+    let text = format!(
+        "[projectile]\nmaterial = \"rod\"\nlength = \"{length} mm\"\ndiameter = \"5 mm\"\nimpact_velocity = \"{speed} m/s\"\n\
+         [target]\nmaterial = \"block\"\nthickness = \"semi-infinite\"\n\
+         [chain]\ntarget_resistance = \"expanding-cavity\"\nprojectile_elements = {elements}\n\
+         [materials.rod]\nname = \"rod\"\ndensity = \"7830 kg/m3\"\nyoungs_modulus = \"200 GPa\"\npoissons_ratio = 0.29\n\
+         strength.perfectly_plastic = {{ flow_stress = \"{flow_stress} MPa\" }}\n\
+         [materials.block]\nname = \"block\"\ndensity = \"2700 kg/m3\"\nyoungs_modulus = \"70 GPa\"\npoissons_ratio = 0.33\n\
+         strength.perfectly_plastic = {{ flow_stress = \"400 MPa\" }}\n"
+    );
+    case::load_str("impact", &text).unwrap()
+}
+
+#[test]
+fn a_rigid_rod_goes_as_deep_as_in_the_axisymmetric_model() {
+    // Depths of `axi` on 8 and 16 cells per radius [mm]; their error falls with the cell size, and the limit is twice the second less
+    // the first.
+    for (speed, coarse, fine) in [(300, 3.1597, 3.2469), (600, 9.913, 10.443)] {
+        let found = run(&plastic_rod(20_000, 15, speed, 40));
+        let depth = found.depth_of_penetration.unwrap() * 1e3;
+        let limit = 2.0 * fine - coarse;
+        assert!((depth / limit - 1.0).abs() < 0.025, "{depth} {limit}");
+    }
+}
+
+#[test]
+fn a_fast_weak_rod_erodes_by_the_equation_of_alekseevskii_and_tate() {
+    let impact = plastic_rod(500, 100, 2000, 400);
+    let depth = run(&impact).depth_of_penetration.unwrap();
+    let tate = model::model("tate").unwrap();
+    let expected = model::run(tate, &impact, &mut Control::default()).unwrap();
+    let expected = expected.depth_of_penetration.unwrap();
+    assert!((depth / expected - 1.0).abs() < 0.05, "{depth} {expected}");
 }
 
 #[test]
@@ -324,13 +367,15 @@ struct Same {
 
 impl ResistanceLaw for Same {
     fn pressure(&self, depth: f64, speed: f64) -> f64 {
-        self.cavity.at(depth) + 0.5 * self.density * speed * speed
+        let Pressures { cavity, flat_face } = self.cavity.at(depth);
+        cavity + flat_face + 0.5 * self.density * speed * speed
     }
 }
 
 #[test]
 fn a_law_of_the_callers_own_takes_the_place_of_the_cavity() {
-    let mut impact = scenario("4340-johnson-cook", "weldox-460-e-borvik", 50.0, 400.0, "");
+    // Nothing of the rod flows: the law is all that resists, but for the waves in the rod.
+    let mut impact = plastic_rod(20_000, 15, 400, 40);
     let cavity = run(&impact).depth_of_penetration.unwrap();
     let struck = super::struck(&impact).unwrap().material.clone();
     let own = Same {
@@ -347,9 +392,8 @@ fn a_law_of_the_callers_own_takes_the_place_of_the_cavity() {
     };
     impact.resistance = Some(CustomResistance(Arc::new(own)));
     let result = run(&impact);
-    // They differ in how hard what has spread beside the floor may press.
     let depth = result.depth_of_penetration.unwrap();
-    assert!((depth / cavity - 1.0).abs() < 0.02, "{depth} {cavity}");
+    assert!((depth / cavity - 1.0).abs() < 2e-3, "{depth} {cavity}");
     assert!(result.warnings[0].contains("resistance law"));
     // A plane impact is one on the target's own metal.
     assert!(result.details.iter().all(|d| d.name != PLANE_IMPACT));

@@ -18,14 +18,9 @@ const LARGEST_STRAIN: f64 = 2.0;
 pub(super) fn complete(rod: &Rod<'_>, result: &mut RunResult, monitor: &RunMonitor) {
     let (scenario, grid) = (rod.scenario, &rod.grid);
     let (mass, momentum) = grid.motion(0);
-    // A crater floor that sprang back beyond the original face is no depth.
     let depth = match scenario.target {
         TargetBody::RigidWall => None,
-        _ => Some(
-            monitor
-                .at_rest
-                .map_or(monitor.largest_depth, |(_, depth)| depth.max(0.0)),
-        ),
+        _ => Some(monitor.depth_at_rest()),
     };
     result.depth_of_penetration = depth;
     result.largest_depth = depth.map(|_| monitor.largest_depth);
