@@ -263,6 +263,14 @@ fn a_weak_projectile_parts_and_mass_and_momentum_are_kept() {
 }
 
 #[test]
+fn cracks_that_still_hold_part_nothing() {
+    let tough = "chain.failure.spall.strength = '80 MPa'\nchain.fracture_energy = '200 kJ/m2'";
+    let result = run(&plate(5.2, 400.0, "", tough));
+    assert!(result.details.iter().any(|detail| detail.name == "cracks"));
+    assert!(result.fragments.is_empty(), "{:?}", result.fragments);
+}
+
+#[test]
 fn a_target_that_would_fail_is_told() {
     let scenario = plate(
         3.0,

@@ -300,37 +300,45 @@ impl Projectile {
             })
     }
 
-    /// The pieces from the tail on, where there is more than one.
+    /// The pieces from the tail on that no crack holds together any more, where there is more than one.
     pub(super) fn fragments(&self) -> Vec<Fragment> {
-        if self.behind.is_empty() {
+        let mut pieces: Vec<Vec<&Rod>> = Vec::new();
+        let mut joined = false;
+        let holds = self.behind.iter();
+        let holds = holds.map(|piece| piece.interface.bond.holds() > 0.0);
+        for (rod, holds) in self.rods().zip(holds.chain([false])) {
+            match pieces.last_mut().filter(|_| joined) {
+                Some(piece) => piece.push(rod),
+                None => pieces.push(vec![rod]),
+            }
+            joined = holds;
+        }
+        if pieces.len() < 2 {
             return Vec::new();
         }
-        self.rods().map(fragment).collect()
+        pieces.iter().map(|piece| fragment(piece)).collect()
     }
 }
 
-fn fragment(rod: &Rod) -> Fragment {
-    let (mass, momentum) = rod.motion();
-    let moment: f64 = rod
-        .nodes
-        .iter()
-        .map(|node| node.mass() * node.position)
-        .sum();
+/// Rods one behind the other as one piece.
+fn fragment(rods: &[&Rod]) -> Fragment {
+    let (mut mass, mut momentum, mut moment) = (0.0, 0.0, 0.0);
     let (mut length, mut radius) = (0.0, 0.0_f64);
     let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
-    let half = 0.5 * rod.size.length;
-    for (
-        slice,
-        Particulars {
-            initial_position, ..
-        },
-    ) in rod.slices.iter().zip(&rod.particulars)
-    {
-        let (own, widest) = slice.unloaded(&rod.size);
-        length += own;
-        radius = radius.max(widest);
-        from = from.min(initial_position - half);
-        to = to.max(initial_position + half);
+    for rod in rods {
+        let motion = rod.motion();
+        mass += motion.0;
+        momentum += motion.1;
+        let moments = rod.nodes.iter().map(|node| node.mass() * node.position);
+        moment += moments.sum::<f64>();
+        let half = 0.5 * rod.size.length;
+        for (slice, own) in rod.slices.iter().zip(&rod.particulars) {
+            let (unloaded, widest) = slice.unloaded(&rod.size);
+            length += unloaded;
+            radius = radius.max(widest);
+            from = from.min(own.initial_position - half);
+            to = to.max(own.initial_position + half);
+        }
     }
     Fragment {
         origin: "projectile".to_owned(),
