@@ -404,3 +404,92 @@ fn where_no_model_applies_the_error_gives_every_reason() {
     }
     assert!(!folder.path().join("results").exists());
 }
+
+/// A number among those of the model.
+fn detail(run: &Value, name: &str) -> f64 {
+    let details = run["results"][0]["details"].as_array().unwrap();
+    let found = details.iter().find(|detail| detail["name"] == name);
+    found.unwrap_or_else(|| panic!("no {name}: {details:?}"))["value"]
+        .as_f64()
+        .unwrap()
+}
+
+/// The case on its default mesh.
+fn on_default_mesh() -> String {
+    CASE.lines()
+        .filter(|line| !line.starts_with("chain"))
+        .map(|line| format!("{line}\n"))
+        .collect()
+}
+
+#[test]
+fn a_mesh_within_a_tolerance_is_the_coarsest_one() {
+    let folder = shot(&on_default_mesh());
+    let with = |tolerance: &str| {
+        let arguments = ["run", "--fast", "shot.toml", "--json", "--mesh-tolerance"];
+        json(&ok(folder.path(), &[&arguments[..], &[tolerance]].concat()))
+    };
+    let [coarse, fine] = ["5%", "0.7 %"].map(with);
+    let elements = |run| {
+        let of = |body| detail(run, &format!("{body} elements of the chosen mesh"));
+        [of("projectile"), of("target")]
+    };
+    assert_eq!(elements(&coarse), [20.0, 40.0]);
+    assert_eq!(elements(&fine), [80.0, 160.0]);
+    for (run, tolerance) in [(&coarse, 5.0), (&fine, 0.7)] {
+        assert_eq!(detail(run, "tolerance of the mesh error"), tolerance);
+        let error = detail(run, "estimated mesh error of the main number");
+        assert!(error <= tolerance && error > 0.0, "{error}");
+    }
+    // The depth is that of a run on this mesh.
+    let mesh = "projectile_elements = 80\ntarget_elements = 160";
+    fs::write(
+        folder.path().join("fine.toml"),
+        format!("{}[chain]\n{mesh}\n", on_default_mesh()),
+    )
+    .unwrap();
+    let run = json(&ok(
+        folder.path(),
+        &["run", "--fast", "fine.toml", "--json"],
+    ));
+    for name in ["depth_of_penetration_mm", "residual_velocity_m_s", "steps"] {
+        assert_eq!(fine["results"][0][name], run["results"][0][name], "{name}");
+    }
+}
+
+#[test]
+fn a_tolerance_that_no_mesh_meets_is_said_and_one_without_a_mesh_refused() {
+    let folder = shot(&on_default_mesh());
+    let run = |more: &[&str]| {
+        let arguments = [&["run", "--fast", "shot.toml", "--mesh-tolerance"], more].concat();
+        percuss(folder.path(), arguments)
+    };
+    let text = flat(&run(&["0.01%"]).ok());
+    let warning = "warning: no mesh up to 320 + 640 elements is within the tolerance of 0.01 %: the depth on the finest one has an estimated error of ";
+    assert!(text.contains(warning), "{text}");
+    for (more, said) in [
+        (&["1"][..], "allowed: 0.01 to 50 percent, such as 1%"),
+        (&["-1%"], "allowed: 0.01 to 50 percent"),
+        (&["nan%"], "allowed: 0.01 to 50 percent"),
+        (
+            &["1%", "--model", "tate"],
+            "has no effect with model `tate`, which has no elements along a line",
+        ),
+        (
+            &["1%", "--model", "axi"],
+            "has no effect with model `axi`, which has no elements along a line",
+        ),
+    ] {
+        let refused = run(more);
+        assert_eq!(refused.code, 2, "{}", refused.stderr);
+        assert!(flat(&refused.stderr).contains(said), "{}", refused.stderr);
+    }
+    let planar = "projectile = { material = 'ofhc-copper-johnson-cook', length = '2 mm', diameter = '80 mm', impact_velocity = '300 m/s' }\n\
+                  target = { material = '6061-t6-lesuer', thickness = '4 mm', back_face = 'free' }\n\
+                  fdm.geometry = 'planar'\n";
+    fs::write(folder.path().join("shot.toml"), planar).unwrap();
+    let refused = run(&["1%", "--model", "fdm"]);
+    let said = "it gives no depth, final length or residual velocity to choose a mesh by";
+    assert_eq!(refused.code, 2, "{}", refused.stderr);
+    assert!(flat(&refused.stderr).contains(said), "{}", refused.stderr);
+}

@@ -79,6 +79,8 @@ pub enum Termination {
     PenetrationStopped,
     /// The projectile left the target through its back.
     LeftTarget,
+    /// The projectile's momentum is used up, where `end_at_rest` ends the run.
+    AtRest,
     /// The answer is a formula.
     ClosedForm,
     /// `end_time` was reached.
@@ -106,6 +108,9 @@ impl Termination {
                 "the target's resistance holds what is left of the projectile"
             }
             Self::LeftTarget => "the projectile left the target through its back",
+            Self::AtRest => {
+                "the projectile's momentum is used up, where `end_at_rest` ends the run"
+            }
             Self::ClosedForm => "the answer is a formula",
             Self::EndTime => "end_time reached",
             Self::StepLimit => "max_steps reached",
@@ -133,8 +138,7 @@ pub struct RunResult {
     pub criterion: String,
     /// Why the run was ended.
     pub termination: Termination,
-    /// Depth of the crater floor below the original face when the projectile's momentum is used up [m]; with the expanding cavity of `chain`
-    /// the permanent one.
+    /// Depth of the crater floor below the original face when the projectile's momentum is used up [m].
     ///
     /// The largest depth reached when the run ends before that; `None` for a rigid wall and a perforated target.
     pub depth_of_penetration: Option<f64>,
@@ -360,6 +364,20 @@ impl RunResult {
             BandQuantity::BallisticLimit => self.ballistic_limit,
             BandQuantity::ProjectileFinalLength => self.projectile_final_length,
         }
+    }
+
+    /// Takes out what is not known before bodies that have come to rest have parted.
+    pub fn without_rebound(&mut self) {
+        self.criterion.clear();
+        if self.outcome == Outcome::Rebounded {
+            self.outcome = Outcome::AtRest;
+        }
+        self.largest_depth = None;
+        self.permanent_depth = None;
+        self.residual_velocity = None;
+        self.projectile_final_length = None;
+        self.projectile_final_diameter = None;
+        self.contact_time = None;
     }
 
     /// Steps and balances of a model that steps through time on a mesh.

@@ -320,6 +320,22 @@ impl Scenario {
         ids
     }
 
+    /// The same, ended by models with `end_at_rest` when the depth is known, where that and the outcome are those of a whole run; otherwise as it is.
+    #[must_use]
+    pub fn ended_at_rest(mut self) -> Self {
+        let TargetBody::Layers { back_face, .. } = &self.target else {
+            return self;
+        };
+        // A plate with a free rear face may lose a plug after the projectile has stopped.
+        if self.target_thickness().is_none() || *back_face != RearFaceCondition::Free {
+            let options = &mut self.options;
+            options.chain.end_at_rest = Some(true);
+            options.fdm.end_at_rest = Some(true);
+            options.axi.end_at_rest = Some(true);
+        }
+        self
+    }
+
     /// Thickness of all layers together [m]; `None` for a semi-infinite target, a wall or a constant pressure.
     pub fn target_thickness(&self) -> Option<f64> {
         match &self.target {

@@ -240,3 +240,17 @@ def test_a_formula_has_no_history() -> None:
     result = percuss.run("cases/taylor-copper-wilkins/scenario.toml", "taylor")
     with pytest.raises(AttributeError, match="has no history"):
         _ = result.history
+
+
+def test_a_mesh_within_a_tolerance_is_that_of_the_program(program: Program) -> None:
+    path = "cases/paper-table1/scenario.toml"
+    whole = answer(program, "run", path, "--fast", "--mesh-tolerance", "1%")
+    (result,) = whole.pop("results")
+    found = percuss.run(path, mesh_tolerance="1%").to_dict()
+    assert found == whole | result
+    chosen = {detail["name"]: detail["value"] for detail in found["details"]}
+    assert chosen["tolerance of the mesh error"] == 1 > chosen["estimated mesh error of the main number"] > 0
+    with pytest.raises(percuss.PercussError, match="allowed: 0.01 to 50 percent"):
+        percuss.run(path, mesh_tolerance="1")
+    with pytest.raises(percuss.UsageError, match="needs laws of the library"):
+        percuss.run(path, mesh_tolerance="1%", target_law=lambda strain, rate, temperature: 300e6)

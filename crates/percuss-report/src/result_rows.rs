@@ -3,7 +3,7 @@
 use percuss::{
     Scenario,
     measured_curves::CurveComparison,
-    outcome::{Detail, Numerics, Outcome, RunResult},
+    outcome::{Detail, Numerics, Outcome, RunResult, Termination},
     summary::{RESULT_FIELDS, ResultNumber, ResultRecord},
     units::significant,
 };
@@ -71,7 +71,10 @@ fn in_table(
         result.numerics.as_ref()?;
         return match of.name {
             "time_to_rest_us" => Some("not reached".to_owned()),
-            _ => initial.map(|_| "none".to_owned()),
+            _ => initial.map(|_| match result.termination {
+                Termination::AtRest => "not known where a run ends at rest".to_owned(),
+                _ => "none".to_owned(),
+            }),
         };
     };
     let unit = of.unit.symbol;

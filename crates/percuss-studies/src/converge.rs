@@ -280,7 +280,7 @@ pub fn run_meshes(
     results: &mut Vec<RunResult>,
 ) -> Result<(), Error> {
     for level in 0..levels {
-        let refined = model.refined(scenario, REFINEMENT.saturating_pow(level));
+        let refined = model.refined(scenario, f64::from(REFINEMENT).powi(level as i32));
         let result = run(model, refined.as_ref().unwrap_or(scenario), control)?;
         if refined.is_none() || result.numerics.is_none() {
             let reason = "it has no mesh to refine";

@@ -14,6 +14,7 @@ mod limit_error;
 #[cfg(test)]
 mod made_up;
 pub mod measured_curves;
+pub mod mesh_choice;
 pub mod model_error;
 pub mod summary;
 pub mod sweep;

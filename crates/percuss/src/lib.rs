@@ -36,7 +36,7 @@ pub use percuss_models::{analytic, axi, chain, fdm, model, particles};
 #[doc(inline)]
 pub use percuss_studies::{
     axisymmetric, calibrate, compare, converge, cost, experiments, limit, measured_curves,
-    model_error, summary, sweep, uncertainty, v50, validate,
+    mesh_choice, model_error, summary, sweep, uncertainty, v50, validate,
 };
 
 /// The library example of the quick start, run from the folder that it stands in.

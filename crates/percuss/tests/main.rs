@@ -17,6 +17,7 @@ mod defaults;
 mod disc_strength;
 mod diverging;
 mod elastic_bars;
+mod end_at_rest;
 mod eroding_rods;
 mod estimates;
 mod fdm_planar;

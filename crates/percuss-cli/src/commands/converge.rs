@@ -163,7 +163,8 @@ impl Converge {
         let scenario = case::scenario(&virtual_files.read(&self.case)?)?;
         let model = model::model(&self.model)?;
         let mut folder = RunFolder::wanted(self.out.as_deref(), None, self.figures.formats())?;
-        let meshes = (0..self.levels).filter_map(|level| model.refined(&scenario, 1 << level));
+        let meshes =
+            (0..self.levels).filter_map(|level| model.refined(&scenario, f64::from(1 << level)));
         tell(meshes.map(|mesh| cost::of_run(model, &mesh)).sum());
         let study = self.compute(model, &scenario, on_progress, stop)?;
         if let Some(folder) = &mut folder {

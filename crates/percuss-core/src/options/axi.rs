@@ -64,6 +64,8 @@ pub struct AxiOptions {
     pub end_time: Option<Time>,
     /// Time steps after which a run is ended.
     pub max_steps: Option<u64>,
+    /// Whether a run is ended when the projectile's momentum is used up, as soon as the depth of penetration is known.
+    pub end_at_rest: Option<bool>,
 }
 
 /// What holds a target at its outer radius.
@@ -133,6 +135,8 @@ defaults! { AxiOptions, axi_in_schema {
     band_width: Length = Length::new(0.25e-3);
     /// Time steps after which a run is ended.
     max_steps: u64 = MAX_STEPS;
+    /// Whether a run is ended when the depth is known.
+    end_at_rest: bool = false;
     depending damage: "`true` where the rear face of the target is free, otherwise `false`";
     depending erode_failed: "`true` where damage accumulates in a target with a free rear face and less than 5 projectile diameters thick, \
         otherwise `false`";
@@ -209,6 +213,7 @@ impl AxiOptions {
             ("edge", self.edge.is_some()),
             ("contact", self.contact.is_some()),
             ("friction", self.friction.is_some()),
+            ("end_at_rest", self.end_at_rest.is_some()),
         ];
         if !target.is_solid() {
             refuse_without_target(check, &of_target);

@@ -74,6 +74,8 @@ pub struct ChainOptions {
     pub end_time: Option<Time>,
     /// Time steps after which a run is ended.
     pub max_steps: Option<u64>,
+    /// Whether a run is ended when the projectile's momentum is used up, as soon as the depth of penetration is known; scheme `conservative` only.
+    pub end_at_rest: Option<bool>,
     /// Readings of the paper; scheme `published` only.
     pub published: Option<PublishedOptions>,
 }
@@ -146,6 +148,7 @@ impl ChainOptions {
             ("constraint_factor", self.constraint_factor.is_some()),
             ("border_shear", self.border_shear.is_some()),
             ("erosion_criterion", self.erosion_criterion.is_some()),
+            ("end_at_rest", self.end_at_rest.is_some()),
         ];
         if !target_is_solid {
             refuse_without_target(check, &column_only);
@@ -234,6 +237,7 @@ impl ChainOptions {
             heat_fraction,
             end_time: _,
             max_steps: _,
+            end_at_rest,
             published,
         } = self;
         let conservative_only = [
@@ -250,6 +254,7 @@ impl ChainOptions {
             ("rate_effects", rate_effects.is_some()),
             ("adiabatic_heating", adiabatic_heating.is_some()),
             ("heat_fraction", heat_fraction.is_some()),
+            ("end_at_rest", end_at_rest.is_some()),
         ];
         match self.scheme {
             Scheme::Published => {

@@ -36,6 +36,8 @@ defaults! { ChainOptions, chain_in_schema {
     heat_fraction: f64 = 0.9;
     /// Time steps after which a run is ended.
     max_steps: u64 = MAX_STEPS;
+    /// Whether a run is ended when the depth is known.
+    end_at_rest: bool = false;
     also projectile_elements = ChainOptions::PROJECTILE_ELEMENTS;
     also kinematics = Kinematics::Logarithmic;
     also courant = ChainOptions::COURANT;

@@ -46,6 +46,8 @@ pub struct FdmOptions {
     pub end_time: Option<Time>,
     /// Time steps after which a run is ended.
     pub max_steps: Option<u64>,
+    /// Whether a run is ended when the projectile's momentum is used up, as soon as the depth of penetration is known; geometry `rod` only.
+    pub end_at_rest: Option<bool>,
 }
 
 /// Geometry of the finite-difference model.
@@ -88,6 +90,7 @@ defaults! { FdmOptions, fdm_in_schema {
     depending border_shear: "that of `[chain]`";
     depending artificial_viscosity: planar_viscosity();
     depending max_steps: by_geometry(&MAX_STEPS.to_string());
+    depending end_at_rest: "that of `[chain]`";
 } }
 
 impl FdmOptions {
@@ -135,6 +138,7 @@ impl FdmOptions {
         let column = [
             ("constraint_factor", self.constraint_factor.is_some()),
             ("border_shear", self.border_shear.is_some()),
+            ("end_at_rest", self.end_at_rest.is_some()),
         ];
         let spall = [("spall_strength", self.spall_strength.is_some())];
         let (ignored, geometry) = match self.geometry {
@@ -160,6 +164,7 @@ impl FdmOptions {
             artificial_viscosity: self.artificial_viscosity.or(chain.artificial_viscosity),
             end_time: self.end_time.or(chain.end_time),
             max_steps: self.max_steps.or(chain.max_steps),
+            end_at_rest: self.end_at_rest.or(chain.end_at_rest),
             ..self.clone()
         }
     }

@@ -101,7 +101,7 @@ pub(super) fn open<'a>(
     }
     if header.case != fingerprint(scenario) {
         return Err(refused(
-            "it is of another case: only its title, sources, experiments, measured curves, and `end_time` and `max_steps` of a model may change",
+            "it is of another case: only its title, sources, experiments, measured curves, and `end_time`, `max_steps` and `end_at_rest` of a model may change",
             "restore the case or start again without `--resume`",
         ));
     }
@@ -144,6 +144,9 @@ fn fingerprint(scenario: &Scenario) -> u64 {
         *end_time = None;
         *max_steps = None;
     }
+    options.chain.end_at_rest = None;
+    options.fdm.end_at_rest = None;
+    options.axi.end_at_rest = None;
     // Debug output gives every number with all its digits.
     hash(format!("{bare:?}").as_bytes())
 }

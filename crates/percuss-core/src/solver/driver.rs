@@ -187,6 +187,13 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
         if let Some(termination) = self.solver.event(&self.monitor)? {
             return Ok(Some(termination));
         }
+        let rests = |below: f64| {
+            let at_rest = self.monitor.at_rest;
+            at_rest.is_some_and(|(_, depth)| depth < below)
+        };
+        if self.limits.at_rest_below.is_some_and(rests) {
+            return Ok(Some(Termination::AtRest));
+        }
         if time >= self.limits.end_time {
             return Ok(Some(Termination::EndTime));
         }
@@ -303,6 +310,9 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
             recorder.finish(last, gauges, solver.profile())
         });
         solver.complete(&mut result, monitor);
+        if termination == Termination::AtRest {
+            result.without_rebound();
+        }
         Ok(result)
     }
 

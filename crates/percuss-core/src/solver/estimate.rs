@@ -191,6 +191,7 @@ mod tests {
         let limits = Limits {
             end_time: 2e-6,
             max_steps: 5000,
+            at_rest_below: None,
         };
         let estimate = |end: f64, limits: Limits| Estimate::of_time(WORK, (end, 1e-9), limits);
         let whole = estimate(1e-6, limits);

@@ -8,6 +8,8 @@ use crate::{
 
 /// Times that waves and the projectile take through all bodies, after which a run ends when a case gives no time.
 const PASSAGES: f64 = 20.0;
+/// Part of a plate beyond which a crater whose projectile rests may still reach the rear face.
+const REST_DEPTH: f64 = 0.5;
 
 /// When a run ends at the latest.
 #[derive(Debug, Clone, Copy)]
@@ -16,6 +18,8 @@ pub struct Limits {
     pub end_time: f64,
     /// Number of steps.
     pub max_steps: u64,
+    /// Depth below which a run ends when the projectile's momentum is used up [m]; `None` where that does not end it.
+    pub at_rest_below: Option<f64>,
 }
 
 impl Limits {
@@ -24,6 +28,20 @@ impl Limits {
         Self {
             end_time: end_time.map_or_else(|| default_end_time(scenario), |time| time.si()),
             max_steps,
+            at_rest_below: None,
+        }
+    }
+
+    /// The same; with `end_at_rest` the run ends as soon as the depth is known, and nothing can come through the target any more.
+    #[must_use]
+    pub fn or_at_rest(self, scenario: &Scenario, end_at_rest: bool) -> Self {
+        let far_from_rear = || {
+            let thickness = scenario.target_thickness();
+            thickness.map_or(f64::INFINITY, |thickness| REST_DEPTH * thickness)
+        };
+        Self {
+            at_rest_below: end_at_rest.then(far_from_rear),
+            ..self
         }
     }
 }

@@ -44,6 +44,13 @@ pub enum CostClass {
     Minutes,
 }
 
+/// A number of elements times a factor, at least one.
+pub fn times(elements: impl Into<f64>, factor: f64) -> u32 {
+    (elements.into() * factor)
+        .round()
+        .clamp(1.0, u32::MAX.into()) as u32
+}
+
 /// A way to compute an impact.
 pub trait Model: Sync {
     /// Name on the command line and in results.
@@ -100,8 +107,8 @@ pub trait Model: Sync {
         None
     }
 
-    /// The same case on a mesh that is `factor` times finer; `None` from a model without a mesh.
-    fn refined(&self, _scenario: &Scenario, _factor: u32) -> Option<Scenario> {
+    /// The same case on a mesh that is `factor` times finer, or coarser below 1; `None` from a model without a mesh.
+    fn refined(&self, _scenario: &Scenario, _factor: f64) -> Option<Scenario> {
         None
     }
 

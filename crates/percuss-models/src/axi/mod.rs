@@ -39,7 +39,7 @@ use crate::{
     material::MaterialClass,
     outcome::RunResult,
     regime::{ProjectileRegime, TargetKind},
-    solver::{Control, CostClass, Estimate, Model, estimate::Work},
+    solver::{Control, CostClass, Estimate, Model, estimate::Work, times},
     validity::{FirstChoice, NoseKind, ValidityDomain},
 };
 
@@ -147,10 +147,10 @@ impl Model for Axi {
         run::not_applicable(scenario)
     }
 
-    fn refined(&self, scenario: &Scenario, factor: u32) -> Option<Scenario> {
+    fn refined(&self, scenario: &Scenario, factor: f64) -> Option<Scenario> {
         let mut refined = scenario.clone();
         let options = &mut refined.options.axi;
-        options.cells_per_radius = Some(options.cells_per_radius().saturating_mul(factor));
+        options.cells_per_radius = Some(times(options.cells_per_radius(), factor));
         Some(refined)
     }
 

@@ -170,6 +170,7 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
     fn limits(&self) -> Limits {
         let options = &self.scenario.options.axi;
         Limits::new(self.scenario, options.end_time, options.max_steps())
+            .or_at_rest(self.scenario, options.end_at_rest())
     }
 
     fn advance(&mut self) -> Result<(), NumericalError> {

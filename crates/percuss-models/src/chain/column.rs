@@ -65,7 +65,8 @@ impl<'a> Column<'a> {
             state,
             control,
             window: Window::default(),
-            limits: Limits::new(scenario, options.end_time, options.max_steps()),
+            limits: Limits::new(scenario, options.end_time, options.max_steps())
+                .or_at_rest(scenario, options.end_at_rest()),
         }
     }
 

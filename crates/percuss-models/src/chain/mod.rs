@@ -82,6 +82,7 @@ use crate::{
         Control, CostClass, Estimate, Model,
         estimate::{ExpectedTimes, WorkRate, element_time},
         limits::Limits,
+        times,
     },
     validity::{FirstChoice, NoseKind, Range, ValidityDomain},
 };
@@ -179,11 +180,8 @@ impl Model for Chain {
         }
     }
 
-    fn refined(&self, scenario: &Scenario, factor: u32) -> Option<Scenario> {
-        let finer = |elements: usize| {
-            let elements = u32::try_from(elements).unwrap_or(u32::MAX);
-            Some(elements.saturating_mul(factor))
-        };
+    fn refined(&self, scenario: &Scenario, factor: f64) -> Option<Scenario> {
+        let finer = |elements: usize| Some(times(elements as f64, factor));
         let mut refined = scenario.clone();
         let options = &mut refined.options.chain;
         options.projectile_elements = finer(options.projectile_elements());

@@ -20,6 +20,7 @@ use crate::{
     solver::{
         Control, CostClass, Estimate, Model,
         estimate::{ExpectedTimes, WorkRate, element_time},
+        times,
     },
     validity::{NoseKind, Range, ValidityDomain, fixed_rear_face_warning},
 };
@@ -116,12 +117,12 @@ impl Model for Fdm {
         }
     }
 
-    fn refined(&self, scenario: &Scenario, factor: u32) -> Option<Scenario> {
+    fn refined(&self, scenario: &Scenario, factor: f64) -> Option<Scenario> {
         let (projectile, target) = elements(scenario);
         let mut refined = scenario.clone();
         let options = &mut refined.options.fdm;
-        options.projectile_elements = Some(projectile.saturating_mul(factor));
-        options.target_elements = Some(target.saturating_mul(factor));
+        options.projectile_elements = Some(times(projectile, factor));
+        options.target_elements = Some(times(target, factor));
         Some(refined)
     }
 

@@ -212,14 +212,14 @@ impl Model for Particles {
         }
     }
 
-    fn refined(&self, scenario: &Scenario, factor: u32) -> Option<Scenario> {
+    fn refined(&self, scenario: &Scenario, factor: f64) -> Option<Scenario> {
         let mut refined = scenario.clone();
         if ball::is_meant(scenario) {
-            let courant = scenario.options.particles.courant() / f64::from(factor);
+            let courant = scenario.options.particles.courant() / factor;
             refined.options.particles.courant = Some(courant);
             return Some(refined);
         }
-        let spacing = setup::extent(scenario).spacing() / f64::from(factor);
+        let spacing = setup::extent(scenario).spacing() / factor;
         refined.options.particles.spacing = Some(Length::new(spacing));
         Some(refined)
     }

@@ -23,6 +23,7 @@ def run(
     model: str | None = None,
     *,
     reference: str | None = None,
+    mesh_tolerance: str | None = None,
     history: bool = True,
     out: Path | None = None,
     figures: str | Sequence[str] | None = None,
@@ -55,6 +56,10 @@ def run(
         Then ``result.axisymmetric`` has the ``value`` in the limit of fine meshes of the main ``quantity``, its ``uncertainty`` by the
         mesh alone, the observed ``order``, and the ``meshes``; where there is none, the ``reason``. When not given, there is no
         answer, as with ``percuss run --fast``. For model ``chain`` or no model.
+    mesh_tolerance : str, optional
+        Largest error by the mesh, such as ``"1%"`` (0.01 to 50 percent), of the main number of a one-dimensional model. The coarsest mesh
+        within it is chosen, from half to eight times the elements of the case. ``result.details`` has the mesh and its estimated error.
+        Without ``out`` there is no history then.
     history : bool
         Whether to keep time histories; with ``out`` they are kept.
     out : path, optional
@@ -130,6 +135,9 @@ def run(
     written: dict[str, Any] = {"field": field, "fields": fields, "animation": animation, "dump": dump, "frames": frames, "resume": resume, "seeds": seeds, "units": units}
     written["figures"] = formats(figures)
     written["figure_width"] = figure_width
+    if mesh_tolerance is not None and any(law is not None for law in laws):
+        raise UsageError("`mesh_tolerance` needs laws of the library: leave it out, or add the law to the library")
+    written["mesh_tolerance"] = mesh_tolerance
     if out is not None or checkpoint is not None or any(value not in (None, False) for value in written.values()):
         if any(law is not None for law in laws):
             raise UsageError("files can be written only for runs with laws of the library: leave out `out`, or add the law to the library")

@@ -16,7 +16,7 @@ const LEVELS: u32 = 4;
 pub(super) fn converged(job: &Job<'_>) -> Result<Study, Problem> {
     let scenario = job.read()?.scenario;
     let model = job.model(&scenario)?;
-    let finest = model.refined(&scenario, REFINEMENT.pow(LEVELS - 1));
+    let finest = model.refined(&scenario, f64::from(REFINEMENT.pow(LEVELS - 1)));
     job.bounds
         .check(model, finest.as_ref().unwrap_or(&scenario))?;
     // The work grows fourfold with each mesh.

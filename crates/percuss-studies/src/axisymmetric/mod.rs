@@ -348,7 +348,9 @@ fn doubt(
         _ => return None,
     };
     Some(match meshes {
-        ReferenceMeshes::Standard => format!("{reason}: take finer ones by `--reference fine`"),
+        ReferenceMeshes::Standard => {
+            format!("{reason}; `percuss run --reference fine` takes finer ones")
+        }
         ReferenceMeshes::Fine => reason.to_owned(),
     })
 }

@@ -171,7 +171,7 @@ fn meshes_that_disagree_on_perforation_have_no_uncertainty() {
     assert_eq!((mixed.value, mixed.uncertainty), (Some(40.0), None));
     let doubt = mixed.doubt.unwrap();
     assert!(
-        doubt.starts_with("the meshes differ in their outcome: take finer ones"),
+        doubt.starts_with("the meshes differ in their outcome; `percuss run --reference fine`"),
         "{doubt}"
     );
     // What has passed a fixed rear face is no result.

@@ -75,6 +75,7 @@ impl ResistanceOptions {
             courant: _,
             end_time: _,
             max_steps: _,
+            end_at_rest: _,
             // Of the shear band, of failure and of the published scheme, which are not in the benchmark.
             shear_band: _,
             dishing: _,

@@ -57,6 +57,8 @@ pub struct ResultNumber {
     pub role: Role,
     /// Which runs have a value in statistics.
     pub in_statistics: InStatistics,
+    /// Whether a run that ends at rest has the same value ([`Scenario::ended_at_rest`]).
+    pub known_at_rest: bool,
     pub(super) of_record: fn(&ResultRecord) -> Option<f64>,
     pub(super) of_run: fn(&Scenario, &RunResult) -> Option<f64>,
 }
@@ -103,6 +105,7 @@ impl ResultNumber {
             unit,
             role,
             in_statistics: InStatistics::Every,
+            known_at_rest: false,
             of_record: |_| None,
             of_run: |_, _| None,
         }
@@ -112,6 +115,14 @@ impl ResultNumber {
     pub(super) const fn in_statistics(self, in_statistics: InStatistics) -> Self {
         Self {
             in_statistics,
+            ..self
+        }
+    }
+
+    /// This number, which a run that ends at rest has, too.
+    pub(super) const fn known_at_rest(self) -> Self {
+        Self {
+            known_at_rest: true,
             ..self
         }
     }

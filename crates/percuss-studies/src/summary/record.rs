@@ -106,7 +106,7 @@ result_record! {
 
         /// Depth of the crater floor in a target that is not perforated, when the projectile's momentum is used up.
         depth_of_penetration_mm: Option<f64>
-            = number("depth of penetration", Unit::MM, Main).in_statistics(NotPerforated), |_, run| run?.depth_of_penetration;
+            = number("depth of penetration", Unit::MM, Main).in_statistics(NotPerforated).known_at_rest(), |_, run| run?.depth_of_penetration;
 
         /// Estimated error of that depth against the axisymmetric reference, where similar cases are in the benchmark.
         expected_error: Option<ModelErrorEstimate>;
@@ -160,7 +160,7 @@ result_record! {
 
         /// Time at which the projectile's momentum is used up.
         time_to_rest_us: Option<f64>
-            = number("time to rest", Unit::US, Result), |_, run| run?.time_to_rest;
+            = number("time to rest", Unit::US, Result).known_at_rest(), |_, run| run?.time_to_rest;
 
         /// Largest force between projectile and target.
         peak_force_kn: Option<f64>

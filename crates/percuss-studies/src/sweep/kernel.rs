@@ -59,6 +59,14 @@ impl SweepRun {
             scenario,
         }
     }
+
+    /// The same, ended when its depth is known ([`Scenario::ended_at_rest`]).
+    pub(crate) fn ended_at_rest(self) -> Self {
+        Self {
+            scenario: self.scenario.map(Scenario::ended_at_rest),
+            ..self
+        }
+    }
 }
 
 /// A run and what became of it.

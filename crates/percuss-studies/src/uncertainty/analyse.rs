@@ -70,21 +70,24 @@ fn analysed(
     let lows_and_highs = tornado::runs(&runner).map_err(cancelled)?;
     let of = |point: Vec<f64>| values(&study.axes, study.copula.as_ref(), &point);
     let draws = runner
-        .run(settings.samples, &|i| of(rows.first(i)), None)
+        .run(settings.samples, &|i| of(rows.first(i)), None, false)
         .map_err(cancelled)?;
+    let quantities = chosen(settings, &draws);
+    // Seven of eight runs: they end when their depth is known, if it is all that is asked.
+    let to_rest = quantities.iter().all(|quantity| quantity.known_at_rest);
     let others = rows.others();
     let mixed = runner
         .run(
             index_rows(study, settings) * others,
             &|i| of(rows.other(i / others, i % others)),
             None,
+            to_rest,
         )
         .map_err(cancelled)?;
     let at_velocities =
         bands::at_velocities(&runner, &settings.velocities, &rows, settings.samples)
             .map_err(cancelled)?;
 
-    let quantities = chosen(settings, &draws);
     let keys: Vec<&str> = study.axes.iter().map(|axis| axis.key.as_str()).collect();
     let result = |quantity: &&'static ResultNumber| -> Option<QuantityResult> {
         let found = draws.iter().filter_map(|draw| draw.value(quantity));

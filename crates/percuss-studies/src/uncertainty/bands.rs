@@ -29,7 +29,7 @@ pub(super) fn at_velocities(
         .map(|&velocity| {
             Ok((
                 velocity,
-                runner.run(samples.min(RUNS), &inputs, Some(velocity))?,
+                runner.run(samples.min(RUNS), &inputs, Some(velocity), false)?,
             ))
         })
         .collect()

@@ -22,12 +22,13 @@ pub(super) struct Runner<'a> {
 }
 
 impl Runner<'_> {
-    /// Runs whose values are given by their number, at the case's own velocity or at another one.
+    /// Runs whose values are given by their number, at the case's own velocity or at another one; to rest where no more is asked.
     pub(super) fn run(
         &self,
         count: u64,
         inputs: &(dyn Fn(u64) -> Vec<f64> + Sync),
         velocity: Option<f64>,
+        to_rest: bool,
     ) -> Result<Vec<Draw>, Stopped> {
         let size = count.div_ceil(BLOCKS).clamp(1, LARGEST_BLOCK);
         let more: Vec<(&str, toml::Value)> = velocity
@@ -36,7 +37,12 @@ impl Runner<'_> {
             .collect();
         in_blocks(count, size, |range| {
             let runs = range.map(|i| {
-                SweepRun::new(&self.study.template, &self.study.axes, i, inputs(i), &more)
+                let (template, axes) = (&self.study.template, &self.study.axes);
+                let run = SweepRun::new(template, axes, i, inputs(i), &more);
+                match to_rest {
+                    true => run.ended_at_rest(),
+                    false => run,
+                }
             });
             let rows = self.kernel.rows(runs.collect(), self.observer.stop)?;
             let of_block = rows.len() as u64;

@@ -19,7 +19,7 @@ pub(super) fn runs(runner: &Runner<'_>) -> Result<Vec<Draw>, Stopped> {
         inputs[parameter] = axes[parameter].at(ENDS[end]);
         inputs
     };
-    runner.run(2 * axes.len() as u64, &inputs, None)
+    runner.run(2 * axes.len() as u64, &inputs, None, false)
 }
 
 /// The bars of a quantity, the longest first.

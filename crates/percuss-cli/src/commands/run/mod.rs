@@ -60,6 +60,14 @@ also left out with a --model other than `chain`, where `axi` does not apply,
 and where they take more than 60 s of processor time, unless --reference is
 given. Ctrl-C during these runs keeps the first result.
 
+With --mesh-tolerance a one-dimensional model tries meshes from half to eight
+times the elements of the case, each with twice those of the last. It takes the
+coarsest one on which the estimated error of the depth (final length on a rigid
+wall, residual velocity after perforation) is within the tolerance: 1.25 times
+the difference from Richardson's value, or the spread of three meshes that
+approach no limit. Mesh and error are among the results, the mesh also in
+case-as-run.toml, for sweeps. A warning says where none is within it.
+
 With --quiet one line is printed, of NAME=VALUE pairs with the names of --json:
   outcome=at_rest depth_of_penetration_mm=0.0436 residual_velocity_m_s=-1.2
   ballistic_limit_m_s=null projectile_final_length_mm=12.7 warnings=1
@@ -100,6 +108,7 @@ Examples:
   percuss run my-case/scenario.toml
   percuss run my-case/scenario.toml --fast
   percuss run my-case/scenario.toml --reference fine
+  percuss run my-case/scenario.toml --fast --mesh-tolerance 1%
   percuss run my-case/scenario.toml --out results
   percuss run my-case/scenario.toml --out results --units mm-ms-kN
   percuss run my-case/scenario.toml --out results --figures svg,pdf
@@ -131,6 +140,10 @@ pub struct Run {
     /// Leave out the axisymmetric answer
     #[arg(long)]
     fast: bool,
+    /// Choose the coarsest mesh on which the main number has at most this error by the mesh, such as 1%
+    #[arg(long, value_name = "PERCENT", value_parser = mesh_tolerance, conflicts_with = "resume")]
+    #[arg(allow_hyphen_values = true)]
+    mesh_tolerance: Option<f64>,
     /// Print one JSON object and nothing else on standard output
     #[arg(long)]
     json: bool,
@@ -170,6 +183,17 @@ pub struct Run {
     /// Continue from the checkpoint in DIR; without one there, start at the beginning
     #[arg(long, requires = "out")]
     resume: bool,
+}
+
+/// Reads a tolerance of the mesh error, as a part.
+fn mesh_tolerance(text: &str) -> Result<f64, String> {
+    const ALLOWED: std::ops::RangeInclusive<f64> = 0.01..=50.0;
+    let number = text.trim().strip_suffix('%');
+    let percent = number.and_then(|number| number.trim().parse::<f64>().ok());
+    match percent.filter(|percent| ALLOWED.contains(percent)) {
+        Some(percent) => Ok(0.01 * percent),
+        None => Err("allowed: 0.01 to 50 percent, such as 1%".to_owned()),
+    }
 }
 
 /// Fraction of the work that is computation; the rest is writing files.

@@ -11,6 +11,7 @@ use percuss::{
     Error, Scenario, case,
     checkpoint::Header,
     frames::Frame,
+    mesh_choice::{MeshChoice, choose_mesh},
     model::{self, ChosenModel, Control, Estimate, Model},
     outcome::RunResult,
 };
@@ -75,6 +76,7 @@ impl<'a> Task<'a> {
         let model = chosen.model;
         check_use(options, model)?;
         check_seeds(options, model, &scenario)?;
+        check_mesh(options, model, &scenario)?;
         let start = start(options, model, &scenario, say)?;
         // A model that does not apply makes no folder.
         let out = options.out.as_deref();
@@ -129,6 +131,10 @@ impl<'a> Task<'a> {
 
     /// Executes the run. A run with checkpoints is stopped by its checkpoint writer alone.
     pub fn compute(&mut self, on_progress: ProgressCallback<'_>) -> Result<RunOutput, Failure> {
+        let mesh = match self.options.mesh_tolerance {
+            Some(tolerance) => Some(self.choose_mesh(tolerance, on_progress)?),
+            None => None,
+        };
         let by_checkpoint = self.fields.is_some();
         let runs = f64::from(self.options.seeds.unwrap_or(1));
         let mut report = |now: model::Progress| {
@@ -150,6 +156,10 @@ impl<'a> Task<'a> {
                 self.chosen.run(&self.scenario, &mut control)?
             }
         };
+        let result = match mesh {
+            Some(mesh) => mesh.told(result),
+            None => result,
+        };
         let (model, scenario) = (self.chosen.model, &self.scenario);
         let of_seeds =
             |count| seeds::study(model, scenario, &result, count, self.stop, on_progress);
@@ -161,6 +171,23 @@ impl<'a> Task<'a> {
             seeds,
             seeds_stopped: seeds_stopped.unwrap_or(false),
         })
+    }
+
+    /// Takes a mesh within the tolerance.
+    fn choose_mesh(
+        &mut self,
+        tolerance: f64,
+        on_progress: ProgressCallback<'_>,
+    ) -> Result<MeshChoice, Failure> {
+        let mut report =
+            |_: model::Progress| unless_stopped(self.stop, on_progress(0.0, "choice of the mesh"));
+        let mut control = Control {
+            progress: Some(&mut report),
+            ..Control::default()
+        };
+        let mesh = choose_mesh(self.chosen.model, &self.scenario, tolerance, &mut control)?;
+        self.scenario = Arc::new(mesh.scenario.clone());
+        Ok(mesh)
     }
 
     /// Writes the results, if there is a folder; returns the files.
@@ -380,6 +407,21 @@ fn check_seeds(options: &Run, model: &dyn Model, scenario: &Scenario) -> Result<
     Err(Failure::Usage {
         message: format!("`--seeds` has no effect: {why}"),
         help: "remove `--seeds`, or give `--model particles` and a case whose packing is \"irregular\"".to_owned(),
+    })
+}
+
+/// Refuses a tolerance of the mesh error of a model without elements along a line.
+fn check_mesh(options: &Run, model: &dyn Model, scenario: &Scenario) -> Result<(), Failure> {
+    let has_elements = !model.is_two_dimensional() && model.refined(scenario, 1.0).is_some();
+    if options.mesh_tolerance.is_none() || has_elements {
+        return Ok(());
+    }
+    Err(Failure::Usage {
+        message: format!(
+            "`--mesh-tolerance` has no effect with model `{}`, which has no elements along a line",
+            model.name()
+        ),
+        help: "remove `--mesh-tolerance`, or give `--model chain` or `--model fdm`; `--reference fine` has finer axisymmetric meshes".to_owned(),
     })
 }
 

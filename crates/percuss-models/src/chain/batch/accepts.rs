@@ -50,6 +50,7 @@ fn accepts_options(options: &ChainOptions) -> bool {
         heat_fraction: _,
         end_time: _,
         max_steps: _,
+        end_at_rest: _,
         published,
     } = options;
     *scheme == Scheme::Conservative

@@ -38,6 +38,10 @@ fn runs() -> Vec<Scenario> {
         ("copper", PLATE, 300.0, "courant = 0.3"),
         ("copper", PLATE, 300.0, "max_steps = 77"),
         ("copper", PLATE, 300.0, "end_time = '9 us'"),
+        ("copper", PLATE, 300.0, "end_at_rest = true"),
+        ("copper", PLATE, 900.0, "end_at_rest = true"),
+        ("copper", free, 350.0, "end_at_rest = true"),
+        ("elastic", PLATE, 250.0, "end_at_rest = true"),
         ("copper", free, 350.0, "border_shear = 0.0"),
         (
             "copper",
@@ -163,7 +167,7 @@ impl Chance {
         let (rod, target) = (self.law(), self.law());
         let (velocity, shear) = (self.between(50.0, 900.0), self.between(0.0, 0.6));
         let erosion = self.between(0.3, 1.5);
-        let [rate_effects, heating] = [0, 1].map(|_| self.between(0.0, 1.0) < 0.8);
+        let [rate_effects, heating, whole] = [0, 1, 2].map(|_| self.between(0.0, 1.0) < 0.8);
         let [hot_rod, hot_plate] = [0, 1].map(|_| match self.between(0.0, 1.0) < 0.3 {
             true => format!(", temperature = '{} K'", self.between(300.0, 900.0)),
             false => String::new(),
@@ -172,7 +176,8 @@ impl Chance {
             "projectile = {{ material = 'rod', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '{velocity} m/s'{hot_rod} }}\n\
              target = {{ material = 'plate', thickness = '25 mm'{hot_plate} }}\n[chain]\ntarget_resistance = 'column'\n\
              projectile_elements = 8\ntarget_elements = 15\nborder_shear = {shear}\nerosion_strain = {erosion}\n\
-             rate_effects = {rate_effects}\nadiabatic_heating = {heating}\n{}{}",
+             rate_effects = {rate_effects}\nadiabatic_heating = {heating}\nend_at_rest = {}\n{}{}",
+            !whole,
             metal("rod", &rod, constants[0]),
             metal("plate", &target, constants[1]),
         );
@@ -204,7 +209,13 @@ fn runs_side_by_side_end_with_the_bits_of_single_runs() {
     }
     let said = |what: &str| results.iter().filter(|words| words.contains(what)).count();
     // The runs are worth something as a test only if they end in many ways.
-    for outcome in ["Rebounded", "Perforated", "StepLimit", "EndTime"] {
+    for outcome in [
+        "Rebounded",
+        "Perforated",
+        "StepLimit",
+        "EndTime",
+        "termination: AtRest",
+    ] {
         assert!(said(outcome) > 0, "none is {outcome}");
     }
     let eroded = |words: &&String| {

@@ -227,6 +227,7 @@ impl<'a> Solver<'a> for Cavity<'a> {
     fn limits(&self) -> Limits {
         let options = &self.scenario.options.chain;
         Limits::new(self.scenario, options.end_time, options.max_steps())
+            .or_at_rest(self.scenario, options.end_at_rest())
     }
 
     fn advance(&mut self) -> Result<(), NumericalError> {

@@ -231,7 +231,8 @@ impl<'a> Solver<'a> for Rod<'a> {
 pub(in crate::fdm) fn limits(scenario: &Scenario) -> (f64, Limits) {
     let options = options_of(scenario);
     let max_steps = options.max_steps.unwrap_or(MAX_STEPS);
-    let limits = Limits::new(scenario, options.end_time, max_steps);
+    let limits = Limits::new(scenario, options.end_time, max_steps)
+        .or_at_rest(scenario, options.end_at_rest.unwrap_or(false));
     (options.courant(), limits)
 }
 

@@ -60,6 +60,51 @@ fn threads_make_no_difference_and_progress_reaches_its_end() {
     assert_eq!(with(1), with(3));
 }
 
+/// A kernel that counts the runs that end at rest.
+struct Counted {
+    kernel: ScalarKernel,
+    to_rest: AtomicU32,
+}
+
+impl Kernel for Counted {
+    fn rows(&self, runs: Vec<SweepRun>, stop: &AtomicBool) -> Result<Vec<SweepRow>, Stopped> {
+        let to_rest = |run: &&SweepRun| {
+            let scenario = run.scenario.as_ref().unwrap();
+            scenario.options.chain.end_at_rest()
+        };
+        let count = runs.iter().filter(to_rest).count();
+        self.to_rest.fetch_add(count as u32, Ordering::Relaxed);
+        self.kernel.rows(runs, stop)
+    }
+}
+
+#[test]
+fn indices_of_a_depth_are_those_of_whole_runs() {
+    const COARSE: &str = "chain = { projectile_elements = 8, target_elements = 16 }\n";
+    let study = load(&format!("{CASE}{COARSE}{NORMALS}")).unwrap();
+    let with = |names: &[&str]| {
+        let quantities = names.iter().map(|name| quantity(name).unwrap());
+        let settings = Settings {
+            quantities: quantities.collect(),
+            ..settings(32)
+        };
+        let kernel = Counted {
+            kernel: ScalarKernel::new(model("chain").unwrap()),
+            to_rest: AtomicU32::new(0),
+        };
+        let found = analysed(&study, &kernel, &settings);
+        let depth = found.quantities[0].clone();
+        assert_eq!(depth.quantity, "depth_of_penetration_mm");
+        assert!(depth.indices.is_some(), "{:?}", depth.no_indices);
+        (depth, kernel.to_rest.into_inner())
+    };
+    let (depth, to_rest) = with(&["depth_of_penetration_mm"]);
+    let (of_whole_runs, none) = with(&["depth_of_penetration_mm", "permanent_depth_mm"]);
+    assert_eq!((to_rest % 4, none), (0, 0));
+    assert!(to_rest >= 4 * 16, "{to_rest}");
+    assert_eq!(depth, of_whole_runs);
+}
+
 #[test]
 fn a_stopped_analysis_says_so_and_a_model_that_does_not_apply_why() {
     let study = study(NORMALS);

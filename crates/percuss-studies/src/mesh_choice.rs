@@ -1,0 +1,225 @@
+//! The coarsest mesh on which the main number of a case is within a tolerance.
+
+use crate::{
+    Error, Scenario,
+    axisymmetric::main_number,
+    model::{Control, Model, run},
+    outcome::{BandQuantity, Detail, RunResult},
+    richardson::{CREDIBLE_ORDERS, OnMesh, Trend, extrapolate, trend},
+    units::significant,
+};
+
+/// Number of elements of the coarsest mesh over that of the case.
+const COARSEST: f64 = 0.5;
+/// Factor between the numbers of elements of two meshes.
+const REFINEMENT: f64 = 2.0;
+/// Meshes that are tried at most: the finest has eight times the elements of the case.
+const MESHES: i32 = 5;
+/// Meshes that an estimate takes.
+const FEWEST: usize = 3;
+/// Factor of safety of an error by an observed order \[roache1994\].
+const SAFETY: f64 = 1.25;
+/// Order where differences shrink faster than the schemes can: that of a front.
+const CAUTIOUS_ORDER: f64 = 1.0;
+
+/// A mesh with the estimated error of its number.
+#[derive(Debug, Clone)]
+pub struct MeshChoice {
+    /// The case on this mesh.
+    pub scenario: Scenario,
+    /// Number whose error it is.
+    pub quantity: BandQuantity,
+    /// Estimated error by the mesh, as a part of the number.
+    pub error: f64,
+    /// Largest error that was asked for.
+    pub tolerance: f64,
+    /// Numbers of elements of the meshes that were tried, from coarse to fine: projectile, target.
+    pub tried: Vec<(usize, usize)>,
+    /// Numbers of elements of this one.
+    pub elements: (usize, usize),
+}
+
+/// Tries meshes from half the elements of the case up to eight times them, each with twice those of the last, until the error of one is
+/// estimated to be below `tolerance`; takes the coarsest such mesh, and the finest where there is none.
+///
+/// The estimate is that of three successive meshes: Richardson's, with a factor of safety of 1.25, where their order is credible; the
+/// largest difference of the three where they approach no limit, and twice it for those before the finest.
+///
+/// # Errors
+/// [`Error::NotApplicable`] to a model without a mesh or without such a number; those of [`run`].
+pub fn choose_mesh(
+    model: &dyn Model,
+    scenario: &Scenario,
+    tolerance: f64,
+    control: &mut Control<'_>,
+) -> Result<MeshChoice, Error> {
+    let mut tried: Vec<(Scenario, RunResult)> = Vec::new();
+    let mut best = None;
+    for level in 0..MESHES {
+        let factor = COARSEST * REFINEMENT.powi(level);
+        let refined = model.refined(scenario, factor);
+        let Some(refined) = refined.filter(|_| !model.is_two_dimensional()) else {
+            let reason = "it has no elements along a line whose number could be chosen";
+            return Err(Error::not_applicable(model.name(), reason));
+        };
+        let result = run(model, &refined.clone().ended_at_rest(), control)?;
+        if number(scenario, &result).1.is_none() {
+            let reason = "it gives no depth, final length or residual velocity to choose a mesh by";
+            return Err(Error::not_applicable(model.name(), reason));
+        }
+        tried.push((refined, result));
+        best = coarsest(scenario, &tried, tolerance);
+        if best.is_some_and(|(_, _, error)| error <= tolerance) {
+            break;
+        }
+    }
+    let elements: Vec<_> = tried
+        .iter()
+        .map(|(_, result)| result.numerics().elements)
+        .collect();
+    let (place, quantity, error) = best.unwrap_or_else(|| {
+        let finest = tried.len() - 1;
+        (finest, number(scenario, &tried[finest].1).0, f64::INFINITY)
+    });
+    Ok(MeshChoice {
+        scenario: tried.swap_remove(place).0,
+        quantity,
+        error,
+        tolerance,
+        elements: elements[place],
+        tried: elements,
+    })
+}
+
+/// The coarsest of the three finest meshes that is within the tolerance, or the finest, with its error; `None` of meshes that differ in
+/// their outcome.
+fn coarsest(
+    scenario: &Scenario,
+    tried: &[(Scenario, RunResult)],
+    tolerance: f64,
+) -> Option<(usize, BandQuantity, f64)> {
+    let first = tried.len().checked_sub(FEWEST)?;
+    let of = |place: usize| number(scenario, &tried[first + place].1);
+    let (quantity, _) = of(0);
+    if (1..FEWEST).any(|place| of(place).0 != quantity) {
+        return None;
+    }
+    let [coarse, medium, fine] = [of(0).1?, of(1).1?, of(2).1?];
+    let errors = errors([coarse, medium, fine]);
+    let place = errors.iter().position(|error| *error <= tolerance);
+    let place = place.unwrap_or(FEWEST - 1);
+    Some((first + place, quantity, errors[place]))
+}
+
+/// Main number of a run.
+fn number(scenario: &Scenario, result: &RunResult) -> (BandQuantity, Option<f64>) {
+    let quantity = main_number(scenario, result.outcome);
+    (quantity, result.measurable(quantity))
+}
+
+/// Estimated errors of values on three meshes, from coarse to fine, as parts of the finest value.
+fn errors(values: [f64; 3]) -> [f64; 3] {
+    let mut cells = 1.0;
+    let meshes = values.map(|value| {
+        cells *= REFINEMENT;
+        OnMesh { cells, value }
+    });
+    let [coarse, medium, fine] = values;
+    let part = |difference: f64| match difference == 0.0 {
+        true => 0.0,
+        false => difference.abs() / fine.abs(),
+    };
+    let order = match trend(meshes) {
+        Trend::Exact => return [part(coarse - fine), part(medium - fine), 0.0],
+        Trend::Monotone { order } if order > *CREDIBLE_ORDERS.end() => CAUTIOUS_ORDER,
+        Trend::Monotone { order } if CREDIBLE_ORDERS.contains(&order) => order,
+        _ => {
+            let differences = [coarse - medium, medium - fine, coarse - fine].map(part);
+            let spread = differences.into_iter().fold(0.0, f64::max);
+            // The finest lies this far from a limit, and the others as far from it.
+            return [2.0 * spread, 2.0 * spread, spread];
+        }
+    };
+    let limit = extrapolate(meshes[1], meshes[2], order);
+    values.map(|value| SAFETY * part(value - limit))
+}
+
+impl MeshChoice {
+    /// Whether the error is within the tolerance.
+    pub fn is_within(&self) -> bool {
+        self.error <= self.tolerance
+    }
+
+    /// The result on the mesh, with the mesh and its error among the details, and a warning where that exceeds the tolerance.
+    #[must_use]
+    pub fn told(&self, mut result: RunResult) -> RunResult {
+        let (projectile, target) = self.elements;
+        let mut details = vec![
+            Detail::new(
+                "projectile elements of the chosen mesh",
+                "",
+                projectile as f64,
+            ),
+            Detail::new("target elements of the chosen mesh", "", target as f64),
+            Detail::new("tolerance of the mesh error", "%", 100.0 * self.tolerance),
+        ];
+        if self.error.is_finite() {
+            details.push(Detail::new(
+                "estimated mesh error of the main number",
+                "%",
+                100.0 * self.error,
+            ));
+        }
+        result.details.extend(details);
+        if !self.is_within() {
+            result.warnings.push(format!(
+                "no mesh up to {projectile} + {target} elements is within the tolerance of {} %: {}",
+                significant(100.0 * self.tolerance, 2),
+                match self.error.is_finite() {
+                    true => format!(
+                        "the {} on the finest one has an estimated error of {} %",
+                        self.quantity.describe(),
+                        significant(100.0 * self.error, 2)
+                    ),
+                    false => "the meshes differ in their outcome".to_owned(),
+                }
+            ));
+        }
+        result
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::errors;
+
+    #[test]
+    fn errors_are_those_of_a_power_of_the_cell_size_with_a_factor_of_safety() {
+        for order in [0.7, 1.0, 2.0] {
+            let values = [1.0, 0.5, 0.25].map(|h: f64| 3.0 * (1.0 + 0.1 * h.powf(order)));
+            let found = errors(values);
+            for (found, h) in found.into_iter().zip([1.0, 0.5, 0.25_f64]) {
+                let exact = 0.1 * h.powf(order) * 3.0 / values[2];
+                assert!((found / exact - 1.25).abs() < 1e-9, "{order} {h} {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn meshes_that_approach_no_limit_have_the_error_of_their_spread() {
+        // Oscillating, diverging, and two equal values before a third.
+        for values in [[1.0, 1.2, 1.1], [1.0, 1.1, 1.3], [1.0, 1.0, 1.1]] {
+            let [coarse, medium, fine] = errors(values);
+            assert_eq!([coarse, medium], [2.0 * fine; 2]);
+            let spread = values.iter().fold(0.0_f64, |most, a| {
+                most.max(values.iter().fold(0.0, |m, b| m.max((a - b).abs())))
+            });
+            assert!((fine - spread / values[2]).abs() < 1e-12, "{values:?}");
+        }
+        // An order of 3.3 is no more than a coincidence: the last difference counts.
+        let [_, _, fine] = errors([1.0, 1.2, 1.22]);
+        assert!((fine - 1.25 * 0.02 / 1.22).abs() < 1e-12, "{fine}");
+        assert_eq!(errors([1.0, 1.0, 1.0]), [0.0; 3]);
+        assert_eq!(errors([0.0; 3]), [0.0; 3]);
+    }
+}
