@@ -81,6 +81,8 @@ pub struct RunFolder {
     path: PathBuf,
     formats: Vec<FigureFormat>,
     written: Vec<PathBuf>,
+    /// Text of the copy of the case; empty without one.
+    case_copy: String,
 }
 
 impl RunFolder {
@@ -105,11 +107,28 @@ impl RunFolder {
             path: path.to_path_buf(),
             formats: FigureFormat::DEFAULT.to_vec(),
             written: Vec::new(),
+            case_copy: String::new(),
         };
         if let Some(case) = case {
-            folder.put(CASE_COPY, case::self_contained(case)?.as_bytes())?;
+            let copy = case::self_contained(case)?;
+            folder.put(CASE_COPY, copy.as_bytes())?;
+            folder.case_copy = copy;
         }
         Ok(folder)
+    }
+
+    /// Writes numbers of elements into a table of the copy of the case, which then gives the results of this mesh.
+    pub fn put_mesh(&self, table: &str, elements: &[(&str, usize)]) -> Result<(), Failure> {
+        // The copy is a case that was read.
+        let Ok(mut copy) = self.case_copy.parse::<toml_edit::DocumentMut>() else {
+            return Ok(());
+        };
+        for (key, count) in elements {
+            copy[table][*key] = toml_edit::value(*count as i64);
+        }
+        let text = copy.to_string();
+        percuss_report::replace_file::replace_file(&self.path, CASE_COPY, text.as_bytes())?;
+        Ok(())
     }
 
     pub fn path(&self) -> &Path {

@@ -484,6 +484,28 @@ fn a_tolerance_that_no_mesh_meets_is_said_and_one_without_a_mesh_refused() {
         assert_eq!(refused.code, 2, "{}", refused.stderr);
         assert!(flat(&refused.stderr).contains(said), "{}", refused.stderr);
     }
+    let arguments = [
+        "run",
+        "--fast",
+        "shot.toml",
+        "--out",
+        "out",
+        "--mesh-tolerance",
+        "0.7%",
+    ];
+    ok(folder.path(), &arguments);
+    let written = fs::read_to_string(folder.path().join("out/result.json")).unwrap();
+    let chosen = json(&written);
+    let again = json(&ok(
+        folder.path(),
+        &["run", "--fast", "out/case-as-run.toml", "--json"],
+    ));
+    for name in ["depth_of_penetration_mm", "residual_velocity_m_s", "steps"] {
+        assert_eq!(
+            chosen["results"][0][name], again["results"][0][name],
+            "{name}"
+        );
+    }
     let planar = "projectile = { material = 'ofhc-copper-johnson-cook', length = '2 mm', diameter = '80 mm', impact_velocity = '300 m/s' }\n\
                   target = { material = '6061-t6-lesuer', thickness = '4 mm', back_face = 'free' }\n\
                   fdm.geometry = 'planar'\n";
