@@ -506,6 +506,37 @@ fn a_tolerance_that_no_mesh_meets_is_said_and_one_without_a_mesh_refused() {
             "{name}"
         );
     }
+    // A wall has no elements.
+    let wall = on_default_mesh()
+        .lines()
+        .filter(|line| !line.starts_with("target"))
+        .map(|line| format!("{line}\n"))
+        .collect::<String>()
+        + "target.rigid_wall = true\n";
+    fs::write(folder.path().join("wall.toml"), wall).unwrap();
+    let arguments = [
+        "run",
+        "--fast",
+        "wall.toml",
+        "--out",
+        "wall",
+        "--mesh-tolerance",
+        "1%",
+    ];
+    let text = ok(folder.path(), &arguments);
+    assert!(
+        text.contains("projectile elements of the chosen mesh"),
+        "{text}"
+    );
+    assert!(!text.contains("target elements"), "{text}");
+    let again = ok(folder.path(), &["run", "--fast", "wall/case-as-run.toml"]);
+    let length = |text: &str| {
+        text.lines()
+            .find(|line| line.starts_with("final projectile length"))
+            .map(str::to_owned)
+    };
+    assert!(length(&again).is_some());
+    assert_eq!(length(&text), length(&again));
     let planar = "projectile = { material = 'ofhc-copper-johnson-cook', length = '2 mm', diameter = '80 mm', impact_velocity = '300 m/s' }\n\
                   target = { material = '6061-t6-lesuer', thickness = '4 mm', back_face = 'free' }\n\
                   fdm.geometry = 'planar'\n";

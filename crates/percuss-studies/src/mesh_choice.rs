@@ -33,10 +33,8 @@ pub struct MeshChoice {
     pub error: f64,
     /// Largest error that was asked for.
     pub tolerance: f64,
-    /// Numbers of elements of the meshes that were tried, from coarse to fine: projectile, target.
-    pub tried: Vec<(usize, usize)>,
-    /// Numbers of elements of this one.
-    pub elements: (usize, usize),
+    /// Numbers of elements by their options; a wall has none.
+    pub elements: Vec<(&'static str, usize)>,
 }
 
 /// Tries meshes from half the elements of the case up to eight times them, each with twice those of the last, until the error of one is
@@ -73,21 +71,22 @@ pub fn choose_mesh(
             break;
         }
     }
-    let elements: Vec<_> = tried
-        .iter()
-        .map(|(_, result)| result.numerics().elements)
-        .collect();
     let (place, quantity, error) = best.unwrap_or_else(|| {
         let finest = tried.len() - 1;
         (finest, number(scenario, &tried[finest].1).0, f64::INFINITY)
     });
+    let (scenario, result) = tried.swap_remove(place);
+    let (projectile, target) = result.numerics().elements;
+    let mut elements = vec![("projectile_elements", projectile)];
+    if !scenario.layers().is_empty() {
+        elements.push(("target_elements", target));
+    }
     Ok(MeshChoice {
-        scenario: tried.swap_remove(place).0,
+        scenario,
         quantity,
         error,
         tolerance,
-        elements: elements[place],
-        tried: elements,
+        elements,
     })
 }
 
@@ -153,16 +152,19 @@ impl MeshChoice {
     /// The result on the mesh, with the mesh and its error among the details, and a warning where that exceeds the tolerance.
     #[must_use]
     pub fn told(&self, mut result: RunResult) -> RunResult {
-        let (projectile, target) = self.elements;
-        let mut details = vec![
-            Detail::new(
-                "projectile elements of the chosen mesh",
-                "",
-                projectile as f64,
-            ),
-            Detail::new("target elements of the chosen mesh", "", target as f64),
-            Detail::new("tolerance of the mesh error", "%", 100.0 * self.tolerance),
-        ];
+        let of_body = |&(key, count): &(&str, usize)| {
+            let name = match key {
+                "target_elements" => "target elements of the chosen mesh",
+                _ => "projectile elements of the chosen mesh",
+            };
+            Detail::new(name, "", count as f64)
+        };
+        let mut details: Vec<Detail> = self.elements.iter().map(of_body).collect();
+        details.push(Detail::new(
+            "tolerance of the mesh error",
+            "%",
+            100.0 * self.tolerance,
+        ));
         if self.error.is_finite() {
             details.push(Detail::new(
                 "estimated mesh error of the main number",
@@ -172,8 +174,11 @@ impl MeshChoice {
         }
         result.details.extend(details);
         if !self.is_within() {
+            let counts = self.elements.iter().map(|(_, count)| count.to_string());
+            let counts: Vec<String> = counts.collect();
             result.warnings.push(format!(
-                "no mesh up to {projectile} + {target} elements is within the tolerance of {} %: {}",
+                "no mesh up to {} elements is within the tolerance of {} %: {}",
+                counts.join(" + "),
                 significant(100.0 * self.tolerance, 2),
                 match self.error.is_finite() {
                     true => format!(

@@ -188,18 +188,7 @@ impl<'a> Task<'a> {
         let mesh = choose_mesh(self.chosen.model, &self.scenario, tolerance, &mut control)?;
         self.scenario = Arc::new(mesh.scenario.clone());
         if let Some(folder) = &self.folder {
-            let (projectile, target) = mesh.elements;
-            let both = [
-                ("projectile_elements", projectile),
-                ("target_elements", target),
-            ];
-            // A wall has no elements.
-            let of_bodies = if self.scenario.layers().is_empty() {
-                &both[..1]
-            } else {
-                &both
-            };
-            folder.put_mesh(self.chosen.model.name(), of_bodies)?;
+            folder.put_mesh(self.chosen.model.name(), &mesh.elements)?;
         }
         Ok(mesh)
     }
