@@ -1,5 +1,7 @@
 //! Streamed responses: lines of JSON with the progress, the last one with the result. A disconnected client cancels the run.
 
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
 use axum::{
     body::Bytes,
     response::{IntoResponse, Response},
@@ -15,18 +17,44 @@ use crate::{
 };
 
 /// Sender of progress to a client; what finds the queue full is left out.
-pub(crate) struct EventSender(Sender<Bytes>);
+pub(crate) struct EventSender {
+    sender: Sender<Bytes>,
+    /// The last progress.
+    last: Mutex<Bytes>,
+}
 
 impl EventSender {
+    fn new(sender: Sender<Bytes>) -> Self {
+        let events = Self {
+            sender,
+            last: Mutex::default(),
+        };
+        events.progress(0.0, "");
+        events
+    }
+
     /// Sends the progress, 0 to 1, and a short text.
     pub(crate) fn progress(&self, fraction: f64, words: &str) {
         let line = json!({ "progress": { "fraction": fraction.clamp(0.0, 1.0), "words": words } });
-        let _ = self.0.try_send(line_of(&line));
+        let line = line_of(&line);
+        *self.last() = line.clone();
+        let _ = self.sender.try_send(line);
+    }
+
+    /// Sends the last progress again: that a client has gone is seen when something is sent to it.
+    pub(crate) fn repeat(&self) {
+        let line = self.last().clone();
+        let _ = self.sender.try_send(line);
     }
 
     /// Whether the client has disconnected.
     pub(crate) fn is_disconnected(&self) -> bool {
-        self.0.is_closed()
+        self.sender.is_closed()
+    }
+
+    fn last(&self) -> MutexGuard<'_, Bytes> {
+        // What it guards is whole after every statement.
+        self.last.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -52,7 +80,7 @@ pub(crate) async fn respond<T: Serialize>(
         line_of,
         move |sender, stop| {
             let _place = place;
-            let done = work(&stop, &EventSender(sender))?;
+            let done = work(&stop, &EventSender::new(sender))?;
             // Every result has text keys and can be serialised.
             Ok(serde_json::to_value(done).unwrap_or_default())
         },

@@ -13,7 +13,7 @@ pub(crate) const LARGEST_READ_BODY: usize = 4 << 20;
 /// Largest time to receive a request.
 pub(crate) const ARRIVAL: Duration = Duration::from_secs(10);
 /// Largest time that a request waits for a worker.
-pub(crate) const QUEUE_TIME: Duration = Duration::from_secs(3);
+pub(crate) const QUEUE_TIME: Duration = Duration::from_secs(10);
 /// Largest number of connections, of those whose client has not shown the token of the server, and of the latter from one peer.
 pub(crate) const CONNECTIONS: usize = 256;
 pub(crate) const CONNECTIONS_OF_PEER: usize = 64;

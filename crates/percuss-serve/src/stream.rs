@@ -37,7 +37,7 @@ pub(crate) fn respond(
     let stop = Stop::after(workers.bounds().time());
     let (sender, receiver) = mpsc::channel(WAITING);
     let last = sender.clone();
-    let computed = task::spawn_blocking(move || work(sender, stop));
+    let computed = task::spawn_blocking(move || on_own_threads(move || work(sender, stop)));
     task::spawn(async move {
         let end = match computed.await {
             Ok(Ok(done)) => json!({ "done": done }),
@@ -48,6 +48,15 @@ pub(crate) fn respond(
         let _ = last.send(encode(&end)).await;
     });
     http::respond(StatusCode::OK, content_type, Body::new(Chunks(receiver)))
+}
+
+/// Works on threads of its own: on shared ones a run in parallel would wait behind all that a sweep has queued, and keep its place.
+fn on_own_threads<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    match rayon::ThreadPoolBuilder::new().build() {
+        Ok(pool) => pool.install(work),
+        // The system has no more threads: those that all share are there.
+        Err(_) => work(),
+    }
 }
 
 /// Body of a streamed response.

@@ -16,13 +16,21 @@ use crate::RequestLimits;
 
 /// Time between two looks whether somebody still waits.
 const LOOK: Duration = Duration::from_millis(50);
+/// Looks between two messages to a client that hears of no other progress.
+const REPEAT: u32 = 10;
 
 /// Works until nobody waits or time is up, which makes `ended` true: runs may be long, so that their progress is no measure of it.
 pub(super) fn watched<T>(job: &Job<'_>, ended: &AtomicBool, work: impl FnOnce() -> T) -> T {
     let done = AtomicBool::new(false);
     thread::scope(|scope| {
         let looking = scope.spawn(|| {
-            while !done.load(Ordering::Relaxed) {
+            for look in 1_u32.. {
+                if done.load(Ordering::Relaxed) {
+                    break;
+                }
+                if look.is_multiple_of(REPEAT) {
+                    job.events.repeat();
+                }
                 if job.wanted().is_break() {
                     ended.store(true, Ordering::Relaxed);
                 }

@@ -278,6 +278,37 @@ fn a_refinement_gives_way_to_an_answer_and_goes_on() {
 }
 
 #[test]
+fn a_refinement_beside_a_sweep_gives_way_to_an_answer() {
+    let served = Served::new(Options {
+        bounds: RequestLimits {
+            runs: 2,
+            ..RequestLimits::default()
+        },
+        ..Options::default()
+    });
+    let (mut refined, _) = started(&served);
+    let sweep = r#"
+        base = "scenario.toml"
+        model = "chain"
+        design = "grid"
+        [[parameter]]
+        key = "projectile.impact_velocity"
+        linear = { from = "150 m/s", to = "300 m/s", count = 4000 }
+    "#;
+    let fine = PAPER.replace("target_elements = 80", "target_elements = 1600");
+    let asked = json!({ "case": fine, "sweep": sweep }).to_string();
+    let request = post_request(served.address, "/api/study/sweep", asked.as_bytes(), "");
+    let mut swept = served.connect();
+    swept.write_all(&request).unwrap();
+    read_until(&mut swept, &mut Vec::new(), "of 4000 runs");
+    let answer = served.post_bytes("/api/answer", &body(), "");
+    assert_eq!(answer.status, 200, "{}", answer.text());
+    // Both go on.
+    read_until(&mut refined, &mut Vec::new(), "\"frame\"");
+    read_until(&mut swept, &mut Vec::new(), "of 4000 runs");
+}
+
+#[test]
 fn a_refinement_that_nobody_waits_for_ends_at_once() {
     let served = one_place();
     let (first, _) = started(&served);
