@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use percuss::units::Length;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -129,6 +130,37 @@ fn a_new_case_shows_every_option_at_its_default() {
         reference,
         "{case}"
     );
+}
+
+#[test]
+fn options_of_other_models_have_their_defaults() {
+    let (text, _) = starter();
+    let folder = TempDir::new().unwrap();
+    let schema: Value = serde_json::from_str(&ok(folder.path(), &["schema"])).unwrap();
+    let (_, others) = text.split_once("# Options of the other models").unwrap();
+    let (mut table, mut checked) = (String::new(), 0);
+    for line in others.lines().filter_map(|line| line.strip_prefix("#   ")) {
+        if let Some(name) = line.strip_prefix('[') {
+            table = name.trim_end_matches(']').to_owned();
+            continue;
+        }
+        let (key, _) = line.split_once(" = ").unwrap();
+        let of = schema["properties"][&table]["$ref"].as_str();
+        let name = of.and_then(|of| of.rsplit('/').next());
+        let options = &schema["$defs"][name.unwrap_or_else(|| panic!("no table {table}"))];
+        let default = &options["properties"][key]["default"];
+        if default.is_null() {
+            continue;
+        }
+        let written: toml::Table = toml::from_str(line).unwrap();
+        let written = serde_json::to_value(&written[key]).unwrap();
+        let length = |value: &Value| serde_json::from_value::<Length>(value.clone()).ok();
+        let is_same = written == *default
+            || length(&written).is_some_and(|written| Some(written) == length(default));
+        assert!(is_same, "{table}.{key}: {written}, default {default}");
+        checked += 1;
+    }
+    assert!(checked > 30, "{checked}");
 }
 
 #[test]

@@ -22,6 +22,13 @@ pub fn shorten_words(text: &str) -> String {
     short
 }
 
+/// A text with a capital first letter.
+pub fn capitalized(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters).collect()
+}
+
 /// A path in a message: a long one without its middle.
 pub fn shown(path: &Path) -> String {
     const MOST: usize = 300;

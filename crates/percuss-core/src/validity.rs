@@ -12,7 +12,7 @@ mod temperature;
 
 pub use first_choice::FirstChoice;
 pub use fitted_to::FittedTo;
-pub use fixed_rear_face::{THROUGH_FIXED_FACE, fixed_rear_face_warning};
+pub use fixed_rear_face::{THROUGH_FIXED_FACE, fixed_rear_face_warning, free_rear_face_assumed};
 pub use nose_kind::NoseKind;
 pub use pushed_column::{border_shear_warning, column_mesh_warnings, pushed_column_warning};
 pub use range::{Measure, Outside, Range};

@@ -10,7 +10,7 @@ pub mod material_tables;
 
 // What the input uses of the layers below.
 use percuss_core::{
-    Refusal, check, document, error, history, input_file, material, options, problem, scenario,
-    units,
+    Refusal, bisection, check, document, error, history, input_file, material, options, problem,
+    scenario, units,
 };
 use percuss_models::chain;

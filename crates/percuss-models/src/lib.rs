@@ -15,6 +15,6 @@ mod solid;
 use percuss::{case, compare, summary};
 use percuss_core::{
     Error, Refusal, Scenario, bisection, check, error, fragments, history, lanes, ledger, material,
-    minimum, options, outcome, power, problem, random, regime, resistance, scenario, shapes,
+    minimum, options, outcome, power, problem, quote, random, regime, resistance, scenario, shapes,
     solver, units, validity,
 };

@@ -13,7 +13,7 @@ pub fn raise(py: Python<'_>, failure: impl Into<Failure>) -> PyErr {
         Ok(None) => return PyKeyboardInterrupt::new_err(()),
         Err(error) => return error,
     };
-    let text = failure.plain_text().trim_end().to_owned();
+    let text = as_argument(failure.plain_text().trim_end());
     let made = py
         .import("percuss.errors")
         .and_then(|module| module.getattr(class))
@@ -29,6 +29,20 @@ pub fn raise(py: Python<'_>, failure: impl Into<Failure>) -> PyErr {
         }
         Err(error) => error,
     }
+}
+
+/// A message about an option of the command line as one about the argument of a function.
+fn as_argument(text: &str) -> String {
+    let hint = "For more information, try '--help'.";
+    let text = text.strip_suffix(hint).unwrap_or(text).trim_end();
+    let option = text
+        .split_once("'--")
+        .and_then(|(before, rest)| Some((before, rest.split_once('\'')?)));
+    let Some((before, (option, after))) = option else {
+        return text.to_owned();
+    };
+    let name = option.split([' ', '=']).next().unwrap_or_default();
+    format!("{before}`{}`{after}", name.replace('-', "_"))
 }
 
 /// The name of the exception's class, `None` for a run that its caller stopped; what it carries goes into `attributes`.

@@ -88,3 +88,17 @@ def test_a_numerical_failure_has_time_step_and_element(program: Program, tmp_pat
         percuss.run(failing)
     assert str(caught.value) == printed.stderr.rstrip()
     assert caught.value.step > 0 and caught.value.time_us > 0.0 and caught.value.help
+
+
+def test_an_argument_has_its_own_name_in_a_message(tmp_path: Path) -> None:
+    case = "cases/paper-table1/scenario.toml"
+    with pytest.raises(percuss.UsageError) as velocity:
+        percuss.compare(case, velocity="abc")
+    assert str(velocity.value).startswith("error: invalid value 'abc' for `velocity`: `abc` is not a number\nallowed: ")
+    with pytest.raises(percuss.UsageError) as tolerance:
+        percuss.run(case, mesh_tolerance="0")
+    assert "for `mesh_tolerance`: " in str(tolerance.value)
+    assert "--help" not in str(velocity.value) + str(tolerance.value)
+    # A path may be bytes.
+    percuss.run(case, out=str(tmp_path / "run").encode(), figures="none")  # type: ignore[arg-type]
+    assert (tmp_path / "run" / "result.json").is_file()

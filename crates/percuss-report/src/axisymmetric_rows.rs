@@ -134,6 +134,7 @@ fn basis(answer: &AxisymmetricAnswer) -> String {
         (Some(_), None) => {
             "finest mesh, not extrapolated; ± is the error of the mesh alone".to_owned()
         }
-        (None, _) => "finest mesh; the meshes differ in their outcome".to_owned(),
+        // Why it has no uncertainty is its doubt.
+        (None, _) => "finest mesh".to_owned(),
     }
 }

@@ -9,6 +9,7 @@ use crate::{
     caption::caption,
     caption::significant,
     curve_figures::curve_charts,
+    measured::versus_speed,
     names::{capitalized, with_unit},
     palette,
 };
@@ -151,25 +152,10 @@ fn lines(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -
             false => series,
         });
     }
-    let measured: Vec<_> = comparison
-        .experiments
-        .iter()
-        .filter(|measured| measured.quantity == quantity)
-        .filter_map(|measured| Some((measured.impact_velocity_m_s?, measured)))
-        .collect();
-    if !measured.is_empty() {
-        let uncertainty = |u: Option<f64>| u.map_or((0.0, 0.0), |u| (u, u));
-        chart = chart.series(
-            Series::new(
-                "experiment",
-                measured.iter().map(|(speed, m)| (*speed, m.value)),
-            )
-            .style(Style::Markers)
-            .color(palette::EXPERIMENT)
-            .error_bars(measured.iter().map(|(_, m)| uncertainty(m.uncertainty))),
-        );
+    match versus_speed(&comparison.experiments, quantity) {
+        Some(measured) => chart.series(measured),
+        None => chart,
     }
-    chart
 }
 
 fn rows(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) -> RowChart {

@@ -13,7 +13,7 @@ use percuss::{
 
 use crate::{
     Axis, Chart, Figure, LineChart, Mark, Series, Style, caption::caption,
-    compare_figure::RECOMMENDED, palette, result_rows::with_uncertainty,
+    compare_figure::RECOMMENDED, measured::versus_speed, palette, result_rows::with_uncertainty,
 };
 
 /// Points of a smooth curve.
@@ -59,20 +59,8 @@ pub fn limit_chart(scenario: &Scenario, limits: &Limits) -> Option<Chart> {
         let name = format!("{} (input)", names(limits, &models));
         chart = input_curve(chart, &models, name, symbols[models[0].model]);
     }
-    let measured: Vec<_> = limits
-        .experiments
-        .iter()
-        .filter(|measured| measured.quantity == BandQuantity::ResidualVelocity)
-        .filter_map(|measured| Some((measured.impact_velocity_m_s?, measured)))
-        .collect();
-    if !measured.is_empty() {
-        let bar = |u: Option<f64>| u.map_or((0.0, 0.0), |u| (u, u));
-        chart = chart.series(
-            Series::new("experiment", measured.iter().map(|(v, m)| (*v, m.value)))
-                .style(Style::Markers)
-                .color(palette::EXPERIMENT)
-                .error_bars(measured.iter().map(|(_, m)| bar(m.uncertainty))),
-        );
+    if let Some(measured) = versus_speed(&limits.experiments, BandQuantity::ResidualVelocity) {
+        chart = chart.series(measured);
     }
     let axisymmetric = limits.axisymmetric.as_ref();
     if let Some((value, half_width)) =

@@ -1,6 +1,6 @@
-//! Measured final values as lines across a chart versus time.
+//! Measured final values: lines across a chart versus time, and marks in a chart versus impact velocity.
 
-use percuss::{Scenario, history::History, outcome::BandQuantity};
+use percuss::{Scenario, compare::ExperimentRecord, history::History, outcome::BandQuantity};
 
 use crate::{Series, Style, caption::significant, palette};
 
@@ -37,6 +37,25 @@ pub(crate) fn lines(scenario: &Scenario, quantity: BandQuantity, history: &Histo
                 .band(band.into_iter().flat_map(|ends| [ends, ends]))
         })
         .collect()
+}
+
+/// Marks of the measured values of a quantity at their impact velocities; `None` without any.
+pub(crate) fn versus_speed(
+    measured: &[ExperimentRecord],
+    quantity: BandQuantity,
+) -> Option<Series> {
+    let of_quantity = measured.iter().filter(|one| one.quantity == quantity);
+    let placed: Vec<_> = of_quantity
+        .filter_map(|one| Some((one.impact_velocity_m_s?, one)))
+        .collect();
+    let bar = |error: Option<f64>| error.map_or((0.0, 0.0), |error| (error, error));
+    (!placed.is_empty()).then(|| {
+        let points = placed.iter().map(|(speed, one)| (*speed, one.value));
+        Series::new("experiment", points)
+            .style(Style::Markers)
+            .color(palette::EXPERIMENT)
+            .error_bars(placed.iter().map(|(_, one)| bar(one.uncertainty)))
+    })
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Names of quantities and parameters in figures, with units in parentheses.
 
+pub(crate) use percuss::quote::capitalized;
 use percuss::{material::Library, summary::result_number, units::ResultUnit};
 
 /// Most characters of the name of a material in a legend.
@@ -32,13 +33,6 @@ pub(crate) fn with_unit(name: &str, unit: &str) -> String {
 /// Name of a parameter of a case by its dotted key, and its unit in parentheses, as charts have it.
 pub fn parameter_label(key: &str, unit: &str) -> String {
     with_unit(&parameter(key), unit)
-}
-
-/// Text with a capital first letter.
-pub(crate) fn capitalized(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters.next().into_iter().flat_map(char::to_uppercase);
-    first.chain(letters).collect()
 }
 
 /// Name and unit of a column of results.

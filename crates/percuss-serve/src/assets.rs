@@ -56,6 +56,20 @@ fn asset(kind: &'static str, content: &'static [u8], headers: &HeaderMap) -> Res
     response
 }
 
+/// Answer to any other address: a page to a browser.
+pub(crate) async fn fallback(headers: HeaderMap) -> Response {
+    let accepts = headers.get(header::ACCEPT).map(HeaderValue::as_bytes);
+    let accepts = String::from_utf8_lossy(accepts.unwrap_or_default());
+    match accepts.contains("text/html") {
+        true => missing().page(),
+        false => missing().into_response(),
+    }
+}
+
 pub(crate) fn missing() -> Problem {
-    Problem::with_status(StatusCode::NOT_FOUND, "there is no such page", "go to `/`")
+    Problem::with_status(
+        StatusCode::NOT_FOUND,
+        "there is no such page",
+        "go back to the page of the case",
+    )
 }

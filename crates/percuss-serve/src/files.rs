@@ -1,7 +1,7 @@
 //! Files for download: histories, figures, results.
 
 use axum::{
-    extract::{Request, State},
+    extract::State,
     http::{HeaderValue, StatusCode, header},
     response::{IntoResponse, Response},
 };
@@ -13,7 +13,7 @@ use crate::{
     http,
     job::{Stop, Workers},
     problem::Problem,
-    request::{self, CaseRequest},
+    request::CaseRequest,
     response,
 };
 
@@ -21,11 +21,7 @@ use crate::{
 const CELLS: [usize; 2] = [300, 220];
 
 /// `POST /api/file`.
-pub(crate) async fn post(State(workers): State<Workers>, request: Request) -> Response {
-    let asked: CaseRequest = match request::read(request).await {
-        Ok(asked) => asked,
-        Err(problem) => return problem.into_response(),
-    };
+pub(crate) async fn post(State(workers): State<Workers>, asked: CaseRequest) -> Response {
     let bounds = *workers.bounds();
     let made = workers.run(move |stop| {
         let name = asked.file.clone().unwrap_or_default();

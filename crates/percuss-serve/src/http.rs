@@ -41,9 +41,17 @@ pub(crate) fn page(html: String) -> Response {
     response
 }
 
-/// A report as a page.
-pub(crate) fn report(html: String) -> Response {
-    let mut response = respond(StatusCode::OK, "text/html; charset=utf-8", html);
+/// A report as a page, with the way back.
+pub(crate) fn report(html: &str) -> Response {
+    report_of(StatusCode::OK, html)
+}
+
+/// A report with a status.
+pub(crate) fn report_of(status: StatusCode, html: &str) -> Response {
+    const BACK: &str =
+        "<main>\n<p><a href=\"/\">Case</a> · <a href=\"/materials\">Materials</a></p>\n";
+    let html = html.replacen("<main>\n", BACK, 1);
+    let mut response = respond(status, "text/html; charset=utf-8", html);
     set_policy(response.headers_mut(), REPORT_POLICY);
     response
 }

@@ -55,6 +55,10 @@ pub(crate) fn of(scenario: &Scenario) -> BTreeMap<String, String> {
     if let Some(resistance) = resistance_model_in_use(scenario) {
         add("chain.target_resistance", resistance.name().to_owned());
     }
+    add(
+        "chain.projectile_elements",
+        chain.projectile_elements().to_string(),
+    );
     add("chain.target_elements", chain.target_elements().to_string());
     if scenario.options.fdm.geometry == Geometry::Rod {
         for (name, value) in of_rod(chain) {

@@ -68,24 +68,25 @@ impl RequestLimits {
             ));
         }
         let options = &scenario.options;
-        let elements = match model.name() {
+        let (projectile, target) = match model.name() {
             "fdm" => {
                 let (projectile, target) = percuss::fdm::elements(scenario);
-                projectile.saturating_add(target) as usize
+                (projectile as usize, target as usize)
             }
             "chain" => {
-                let target = options.chain.target_elements();
-                options.chain.projectile_elements().saturating_add(target)
+                let chain = &options.chain;
+                (chain.projectile_elements(), chain.target_elements())
             }
-            _ => 0,
+            _ => (0, 0),
         };
+        let elements = projectile.saturating_add(target);
         if elements > self.elements {
-            let key = match model.name() {
-                "fdm" => "fdm.target_elements",
-                _ => "chain.target_elements",
+            let body = match projectile > target {
+                true => "projectile",
+                false => "target",
             };
             return Err(Problem::at(
-                key,
+                &format!("{}.{body}_elements", model.name()),
                 format!("the mesh has {elements} elements"),
                 format!(
                     "this page allows up to {}: use a coarser mesh, restart it with a larger `--max-elements`, or use `percuss run`",

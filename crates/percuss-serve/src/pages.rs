@@ -7,6 +7,7 @@ use std::{
 
 use axum::{
     extract::{Path, Request, State},
+    http::StatusCode,
     response::{IntoResponse, Response},
 };
 use percuss::{experiments, material::Library, model, validate};
@@ -23,8 +24,8 @@ use crate::{assets, events, http, job::Workers, problem::Problem, request};
 pub(crate) async fn material(Path(name): Path<String>) -> Response {
     let library = Library::built_in();
     match library.find(&name) {
-        Some(entry) => http::report(MaterialCard::new(entry, library).html()),
-        None => assets::missing().into_response(),
+        Some(entry) => http::report(&MaterialCard::new(entry, library).html()),
+        None => assets::missing().page(),
     }
 }
 
@@ -41,13 +42,13 @@ impl Validation {
     /// `GET /validation`: the report, when it was computed before.
     pub(crate) async fn get(State(report): State<Arc<Self>>) -> Response {
         match report.0.get() {
-            Some(html) => http::report(html.clone()),
+            Some(html) => http::report(html),
             None => Problem::with_status(
-                axum::http::StatusCode::NOT_FOUND,
+                StatusCode::NOT_FOUND,
                 "the validation is not computed yet",
                 "the page computes it: press `Validation` there",
             )
-            .into_response(),
+            .page(),
         }
     }
 
@@ -75,7 +76,7 @@ impl Validation {
                     .map_err(|error| stop.problem(error))?;
                 let origin = Origin {
                     files: vec![format!("the program's own ({})", tests.len())],
-                    command: "percuss serve".to_owned(),
+                    command: "percuss validate".to_owned(),
                 };
                 // Of two that compute at once the first one is kept: they are the same.
                 let _ = report.0.set(validation::html(&validation, &origin));

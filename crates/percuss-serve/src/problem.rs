@@ -4,7 +4,8 @@ use axum::{
     http::StatusCode,
     response::{IntoResponse, Response},
 };
-use percuss::{Error, InputError};
+use percuss::{Error, InputError, quote::capitalized};
+use percuss_report::page::{Block, html};
 use serde::Serialize;
 
 use crate::http;
@@ -78,6 +79,16 @@ impl Problem {
     /// Message.
     pub(crate) fn message(&self) -> &str {
         &self.message
+    }
+
+    /// What a browser shows in place of a page.
+    pub(crate) fn page(&self) -> Response {
+        let words = |text: &str| capitalized(&text.replace('`', ""));
+        let page = [
+            Block::Title(words(&self.message)),
+            Block::Text(format!("{}.", words(&self.help))),
+        ];
+        http::report_of(self.status, &html::render(&page))
     }
 
     /// Message and remedy.

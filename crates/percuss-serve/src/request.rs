@@ -4,7 +4,7 @@ use std::{future::poll_fn, pin::Pin};
 
 use axum::{
     body::{Body, HttpBody},
-    extract::Request,
+    extract::{FromRequest, Request},
     http::{StatusCode, header},
 };
 use percuss::{
@@ -55,6 +55,14 @@ pub(crate) struct CaseRequest {
     /// Requested file.
     #[serde(default)]
     pub(crate) file: Option<String>,
+}
+
+impl<S: Sync> FromRequest<S> for CaseRequest {
+    type Rejection = Problem;
+
+    async fn from_request(request: Request, _: &S) -> Result<Self, Problem> {
+        read(request).await
+    }
 }
 
 /// Settings of an uncertainty analysis.

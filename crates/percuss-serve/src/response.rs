@@ -3,7 +3,7 @@
 use std::{collections::BTreeMap, ops::ControlFlow, time::Instant};
 
 use axum::{
-    extract::{Request, State},
+    extract::State,
     http::StatusCode,
     response::{IntoResponse, Response},
 };
@@ -24,7 +24,7 @@ use crate::{
     form, http, in_use,
     job::{Stop, Workers},
     problem::Problem,
-    request::{self, CaseRequest, ReadCase},
+    request::{CaseRequest, ReadCase},
 };
 
 /// Cells of the x–t diagram of a page along the axis and along time.
@@ -222,11 +222,7 @@ pub(crate) fn compute_request(
 }
 
 /// `POST /api/answer`.
-pub(crate) async fn post(State(workers): State<Workers>, request: Request) -> Response {
-    let asked: CaseRequest = match request::read(request).await {
-        Ok(asked) => asked,
-        Err(problem) => return problem.into_response(),
-    };
+pub(crate) async fn post(State(workers): State<Workers>, asked: CaseRequest) -> Response {
     let text = match asked.edited() {
         Ok(text) => text,
         Err(problem) => return problem.into_response(),

@@ -13,7 +13,6 @@ use axum::{
     Extension, Router,
     extract::FromRef,
     middleware,
-    response::IntoResponse,
     routing::{get, post},
 };
 use hyper::{
@@ -186,7 +185,7 @@ fn routes(shared: Shared, guard: HostGuard) -> Router {
         .route("/api/uncertainty-example", post(study::uncertainty_example))
         .route("/api/calibration-example", post(study::calibration_example))
         .route("/api/validation", post(Validation::post))
-        .fallback(async || assets::missing().into_response())
+        .fallback(assets::fallback)
         .layer(middleware::from_fn_with_state(
             Arc::new(guard),
             HostGuard::watch,

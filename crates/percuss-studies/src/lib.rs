@@ -8,6 +8,7 @@ pub mod compare;
 pub mod converge;
 pub mod cost;
 pub mod experiments;
+mod jobs;
 pub mod limit;
 mod limit_choice;
 mod limit_error;

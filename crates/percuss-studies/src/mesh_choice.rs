@@ -29,8 +29,10 @@ pub struct MeshChoice {
     pub scenario: Scenario,
     /// Number whose error it is.
     pub quantity: BandQuantity,
-    /// Estimated error by the mesh, as a part of the number.
+    /// Estimated error by the mesh, as a part of the number; infinite where there is no estimate.
     pub error: f64,
+    /// Why there is no estimate.
+    pub doubt: Option<&'static str>,
     /// Largest error that was asked for.
     pub tolerance: f64,
     /// Numbers of elements by their options; a wall has none.
@@ -41,7 +43,8 @@ pub struct MeshChoice {
 /// estimated to be below `tolerance`; takes the coarsest such mesh, and the finest where there is none.
 ///
 /// The estimate is that of three successive meshes: Richardson's, with a factor of safety of 1.25, where their order is credible; the
-/// largest difference of the three where they approach no limit, and twice it for those before the finest.
+/// largest difference of the three where they approach no limit, and twice it for those before the finest. Meshes on which the numerical
+/// solution fails are left out: the coarsest ones, or all from a finer one on.
 ///
 /// # Errors
 /// [`Error::NotApplicable`] to a model without a mesh or without such a number; those of [`run`].
@@ -60,7 +63,13 @@ pub fn choose_mesh(
             let reason = "it has no elements along a line whose number could be chosen";
             return Err(Error::not_applicable(model.name(), reason));
         };
-        let result = run(model, &refined.clone().ended_at_rest(), control)?;
+        let result = match run(model, &refined.clone().ended_at_rest(), control) {
+            Ok(result) => result,
+            // On the meshes that carry the case to its end.
+            Err(Error::Numerical(_)) if !tried.is_empty() => break,
+            Err(Error::Numerical(_)) if level + 1 < MESHES => continue,
+            Err(error) => return Err(error),
+        };
         if number(scenario, &result).1.is_none() {
             let reason = "it gives no depth, final length or residual velocity to choose a mesh by";
             return Err(Error::not_applicable(model.name(), reason));
@@ -71,6 +80,11 @@ pub fn choose_mesh(
             break;
         }
     }
+    let doubt = match best {
+        Some(_) => None,
+        None if tried.len() < FEWEST => Some("too few meshes have a result"),
+        None => Some("the meshes differ in their outcome"),
+    };
     let (place, quantity, error) = best.unwrap_or_else(|| {
         let finest = tried.len() - 1;
         (finest, number(scenario, &tried[finest].1).0, f64::INFINITY)
@@ -85,6 +99,7 @@ pub fn choose_mesh(
         scenario,
         quantity,
         error,
+        doubt,
         tolerance,
         elements,
     })
@@ -180,13 +195,13 @@ impl MeshChoice {
                 "no mesh up to {} elements is within the tolerance of {} %: {}",
                 counts.join(" + "),
                 significant(100.0 * self.tolerance, 2),
-                match self.error.is_finite() {
-                    true => format!(
+                match self.doubt {
+                    Some(doubt) => doubt.to_owned(),
+                    None => format!(
                         "the {} on the finest one has an estimated error of {} %",
                         self.quantity.describe(),
                         significant(100.0 * self.error, 2)
                     ),
-                    false => "the meshes differ in their outcome".to_owned(),
                 }
             ));
         }
@@ -196,7 +211,76 @@ impl MeshChoice {
 
 #[cfg(test)]
 mod tests {
-    use super::errors;
+    use super::*;
+    use crate::{NumericalError, case, chain::Chain, validity::ValidityDomain};
+
+    /// The chain, which fails on some meshes.
+    struct FailsOn(fn(usize) -> bool);
+
+    impl Model for FailsOn {
+        fn name(&self) -> &'static str {
+            "chain"
+        }
+
+        fn summary(&self) -> &'static str {
+            Chain.summary()
+        }
+
+        fn validity(&self) -> &'static ValidityDomain {
+            Chain.validity()
+        }
+
+        fn refined(&self, scenario: &Scenario, factor: f64) -> Option<Scenario> {
+            Chain.refined(scenario, factor)
+        }
+
+        fn run(&self, scenario: &Scenario, control: &mut Control<'_>) -> Result<RunResult, Error> {
+            if (self.0)(scenario.options.chain.projectile_elements()) {
+                let failure = NumericalError {
+                    what: "made up".to_owned(),
+                    step: 1,
+                    time_us: 0.0,
+                    element: None,
+                    remedy: String::new(),
+                };
+                return Err(Box::new(failure).into());
+            }
+            Chain.run(scenario, control)
+        }
+    }
+
+    fn chosen(fails: fn(usize) -> bool, tolerance: f64) -> Result<MeshChoice, Error> {
+        let text = "projectile = { material = 'copper', length = '14 mm', diameter = '4.8 mm', impact_velocity = '230 m/s' }\n\
+                    target = { material = 'aluminium-2024-t351', thickness = '25 mm' }\n\
+                    chain = { projectile_elements = 8, target_elements = 16 }\n";
+        let scenario = case::load_str("case", text).unwrap();
+        choose_mesh(
+            &FailsOn(fails),
+            &scenario,
+            tolerance,
+            &mut Control::default(),
+        )
+    }
+
+    #[test]
+    fn meshes_that_fail_are_left_out() {
+        let all = chosen(|_| false, 1e-9).unwrap();
+        assert_eq!(
+            all.elements,
+            [("projectile_elements", 64), ("target_elements", 128)]
+        );
+        // Too coarse: the estimate is that of the finer ones.
+        let fine = chosen(|elements| elements < 16, 1e-9).unwrap();
+        assert_eq!((fine.error, &fine.elements), (all.error, &all.elements));
+        // From a finer one on, and too few.
+        let coarse = chosen(|elements| elements > 16, 1e-9).unwrap();
+        assert_eq!(coarse.elements[0].1, 16);
+        assert!(coarse.error.is_finite());
+        let few = chosen(|elements| elements > 8, 1e-9).unwrap();
+        assert_eq!((few.elements[0].1, few.error), (8, f64::INFINITY));
+        assert_eq!(few.doubt, Some("too few meshes have a result"));
+        assert!(matches!(chosen(|_| true, 1e-9), Err(Error::Numerical(_))));
+    }
 
     #[test]
     fn errors_are_those_of_a_power_of_the_cell_size_with_a_factor_of_safety() {

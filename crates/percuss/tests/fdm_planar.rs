@@ -3,10 +3,10 @@
 use crate::common::{assert_near, fdm_recorded};
 use percuss::{
     fdm::planar::{
-        Boundary, CellState, DEFAULT_VISCOSITY, Layer, Medium, PlanarGrid, Solid, StateEquation,
-        impedance_match,
+        Boundary, CellState, Layer, Medium, PlanarGrid, Solid, StateEquation, impedance_match,
     },
     material::Material,
+    options::FdmOptions,
 };
 
 const COURANT: f64 = 0.7;
@@ -179,7 +179,7 @@ fn push(zones: usize, time: f64) -> Vec<CellState> {
         velocity: 0.0,
     };
     let ends = [Boundary::Piston(piston::SPEED), Boundary::Free];
-    let mut column = PlanarGrid::new(&[layer], ends, DEFAULT_VISCOSITY, COURANT);
+    let mut column = PlanarGrid::new(&[layer], ends, FdmOptions::PLANAR_VISCOSITY, COURANT);
     column.advance_to(time).unwrap();
     assert!(column.energy().residual().abs() < 1e-9 * column.energy().total());
     assert!(column.momentum().residual().abs() < 1e-9 * column.momentum().projectile);
@@ -304,7 +304,7 @@ fn nohs_gas_piles_up_to_density_four() {
         velocity: 1.0,
     };
     let ends = [Boundary::Free, Boundary::Piston(0.0)];
-    let mut column = PlanarGrid::new(&[layer], ends, DEFAULT_VISCOSITY, COURANT);
+    let mut column = PlanarGrid::new(&[layer], ends, FdmOptions::PLANAR_VISCOSITY, COURANT);
     let time = 0.6;
     column.advance_to(time).unwrap();
     let cells = column.cells();
@@ -356,7 +356,7 @@ fn plates(flyer: (Medium, f64), target: (Medium, f64), size: f64, velocity: f64)
     PlanarGrid::new(
         &layers,
         [Boundary::Free, Boundary::Free],
-        DEFAULT_VISCOSITY,
+        FdmOptions::PLANAR_VISCOSITY,
         COURANT,
     )
 }

@@ -3,6 +3,7 @@
 use crate::common::scenario;
 use percuss::{
     analytic::{Hydrodynamic, LanzOdermatt, Tate, WalkerAnderson},
+    chain::Chain,
     model::{self, Control, Model},
     outcome::RunResult,
 };
@@ -138,4 +139,62 @@ fn deep_in_a_plate_and_outside_the_regime_there_is_no_number() {
             );
         }
     }
+}
+
+/// A run of the chain on a rod of tungsten alloy, with options of its own.
+fn by_chain(diameters: u32, options: &str) -> (RunResult, percuss::Scenario) {
+    let text = format!(
+        "projectile = {{ material = 'tungsten-alloy', length = '{} mm', diameter = '5 mm', impact_velocity = '2000 m/s' }}\n\
+         target = {{ material = '4340', thickness = 'semi-infinite' }}\nchain = {{ {options} }}",
+        5 * diameters
+    );
+    let scenario = scenario(&text);
+    let result = Chain.run(&scenario, &mut Control::default()).unwrap();
+    (result, scenario)
+}
+
+#[test]
+fn a_rod_of_the_chain_has_short_elements_however_long_it_is() {
+    let part = |(result, scenario): &(RunResult, percuss::Scenario)| {
+        result.depth_of_penetration.unwrap() / scenario.projectile.length
+    };
+    let warns = |(result, _): &(RunResult, percuss::Scenario)| {
+        let words = "one erodes at a time: raise `chain.projectile_elements` to 160";
+        result
+            .warnings
+            .iter()
+            .any(|warning| warning.contains(words))
+    };
+    let short = by_chain(20, "");
+    let long = by_chain(80, "");
+    assert_eq!(short.0.numerics().elements.0, 40);
+    assert_eq!(long.0.numerics().elements.0, 160);
+    // In steady flow the depth is a part of the length; entry and the last diameters are a smaller part of the longer rod.
+    assert!(
+        (part(&long) / part(&short) - 1.0).abs() < 0.05,
+        "{} {}",
+        part(&short),
+        part(&long)
+    );
+    // Elements of two diameters make it shallower.
+    let coarse = by_chain(80, "projectile_elements = 40");
+    assert!(
+        part(&coarse) < 0.9 * part(&long),
+        "{} {}",
+        part(&coarse),
+        part(&long)
+    );
+    assert!(warns(&coarse) && !warns(&long) && !warns(&short));
+}
+
+#[test]
+fn a_run_without_erosion_that_takes_too_long_is_left_out_of_the_band() {
+    let basis = |diameters| {
+        let (mut result, scenario) = by_chain(diameters, "");
+        let explained = Chain.explain(&scenario, &mut result, &mut Control::default());
+        explained.unwrap();
+        result.band.unwrap().basis
+    };
+    assert!(basis(10).starts_with("erosion strain from 1 to never"));
+    assert!(basis(40).starts_with("erosion strain from 1 to the default"));
 }

@@ -210,3 +210,44 @@ fn warnings_of_a_plate_do_not_depend_on_the_unit() {
         assert_eq!(warnings("10 mm", "30 mm"), inches, "{model}");
     }
 }
+
+/// In one dimension a rod of constant strength stops in a plastic shock, as `taylor` has it: its nominal stress `Y/(1 − e)` grows ever faster
+/// with the strain. Elements without viscosity lack what the shock dissipates, and crush further on any mesh.
+#[test]
+fn a_plastic_shock_needs_viscosity() {
+    let length = |model: &str, velocity: f64, elements: u32, quadratic: f64| {
+        let text = format!(
+            r#"
+            projectile = {{ material = "rod", length = "50 mm", diameter = "10 mm", impact_velocity = "{velocity} m/s" }}
+            target.rigid_wall = true
+            [chain]
+            projectile_elements = {elements}
+            erosion_strain = "never"
+            artificial_viscosity.quadratic = {quadratic:?}
+            [materials.rod]
+            density = "7850 kg/m3"
+            youngs_modulus = "200 GPa"
+            poissons_ratio = 0.3
+            strength.perfectly_plastic.flow_stress = "400 MPa"
+            "#
+        );
+        run(model, &scenario(&text))
+            .projectile_final_length
+            .unwrap()
+    };
+    for (velocity, short) in [(300.0, 0.05), (400.0, 0.15)] {
+        let exact = length("taylor", velocity, 40, 0.0);
+        for model in ["chain", "fdm"] {
+            let error =
+                |elements, quadratic| length(model, velocity, elements, quadratic) / exact - 1.0;
+            let errors = [40, 160, 640].map(|elements| error(elements, 2.0));
+            println!("{model} at {velocity} m/s: {errors:.4?}");
+            assert!(
+                errors[0] > errors[1] && errors[1] > errors[2].abs(),
+                "{errors:?}"
+            );
+            assert!(errors[2].abs() < 0.006, "{errors:?}");
+            assert!(error(160, 0.0) < -short, "{model} {velocity}");
+        }
+    }
+}

@@ -6,8 +6,9 @@
 //! front of the step is wide, here a few cells: it dies out on its way to the surface.
 
 use crate::common::assert_near;
-use percuss::fdm::planar::{
-    Boundary, DEFAULT_VISCOSITY, Layer, Medium, PlanarGrid, Solid, StateEquation,
+use percuss::{
+    fdm::planar::{Boundary, Layer, Medium, PlanarGrid, Solid, StateEquation},
+    options::FdmOptions,
 };
 
 const DENSITY: f64 = 2700.0;
@@ -89,7 +90,7 @@ fn pull_back(
     let mut column = PlanarGrid::new(
         &layers,
         [Boundary::Free, Boundary::Free],
-        DEFAULT_VISCOSITY,
+        FdmOptions::PLANAR_VISCOSITY,
         0.7,
     );
     let end = 20e-3 / BULK;

@@ -195,6 +195,14 @@ impl Material {
         (self.youngs_modulus.si() / self.density.si()).sqrt()
     }
 
+    /// Speed of a weak plane wave in the bulk: that of the equation of state, or that of the elastic constants [m/s].
+    pub fn bulk_sound_speed(&self) -> f64 {
+        match &self.equation_of_state {
+            Some(state) => state.sound_speed.si(),
+            None => (self.bulk_modulus() / self.density.si()).sqrt(),
+        }
+    }
+
     /// Acoustic impedance of a thin elastic bar per area [kg/(m2 s)].
     pub fn bar_impedance(&self) -> f64 {
         (self.youngs_modulus.si() * self.density.si()).sqrt()

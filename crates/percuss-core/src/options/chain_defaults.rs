@@ -38,12 +38,20 @@ defaults! { ChainOptions, chain_in_schema {
     max_steps: u64 = MAX_STEPS;
     /// Whether a run is ended when the depth is known.
     end_at_rest: bool = false;
-    also projectile_elements = ChainOptions::PROJECTILE_ELEMENTS;
     also kinematics = Kinematics::Logarithmic;
     also courant = ChainOptions::COURANT;
+    depending projectile_elements: many_elements();
     depending target_elements: few_elements();
     depending target_resistance: resistance_model();
 } }
+
+fn many_elements() -> String {
+    format!(
+        "{}, and in a projectile longer than {} diameters as many as make elements of half a diameter; always {0} in scheme `published`",
+        ChainOptions::PROJECTILE_ELEMENTS,
+        f64::from(ChainOptions::PROJECTILE_ELEMENTS) * ChainOptions::LONGEST_ELEMENT
+    )
+}
 
 fn few_elements() -> String {
     format!(
@@ -66,14 +74,16 @@ fn resistance_model() -> String {
 }
 
 impl ChainOptions {
-    /// Elements along the projectile.
+    /// Elements along the projectile, if it is not long.
     pub const PROJECTILE_ELEMENTS: u32 = 40;
+    /// Longest element of a projectile by default, in its diameters.
+    pub const LONGEST_ELEMENT: f64 = 0.5;
     /// Elements through a target that is not thin.
     pub const TARGET_ELEMENTS: u32 = 80;
     /// Courant number.
     pub const COURANT: f64 = 0.8;
 
-    /// Elements along the projectile.
+    /// Elements along the projectile: of a [`Scenario`](crate::Scenario), where those of a long one are known.
     pub fn projectile_elements(&self) -> usize {
         self.projectile_elements
             .unwrap_or(Self::PROJECTILE_ELEMENTS) as usize

@@ -50,6 +50,30 @@ pub struct FdmOptions {
     pub end_at_rest: Option<bool>,
 }
 
+/// Options of the model `fdm` in geometry `rod`, as they hold.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct RodOptions {
+    /// Cells along the projectile.
+    pub projectile_elements: u32,
+    /// Cells through the target.
+    pub target_elements: u32,
+    /// Factor on the target's flow stress for the lateral constraint.
+    pub constraint_factor: ConstraintFactor,
+    /// Border-shear coefficient C.
+    pub border_shear: f64,
+    /// Courant number.
+    pub courant: f64,
+    /// Artificial viscosity in compression.
+    pub artificial_viscosity: ArtificialViscosity,
+    /// Time at which a run is ended [s]; `None` for that of the impact.
+    pub end_time: Option<Time>,
+    /// Time steps after which a run is ended.
+    pub max_steps: u64,
+    /// Whether a run is ended when the depth of penetration is known.
+    pub end_at_rest: bool,
+}
+
 /// Geometry of the finite-difference model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -154,18 +178,21 @@ impl FdmOptions {
         }
     }
 
-    /// The same options, those of a rod filled in from the chain's.
-    pub fn with_defaults_of(&self, chain: &ChainOptions) -> Self {
-        Self {
-            projectile_elements: self.projectile_elements.or(chain.projectile_elements),
-            target_elements: self.target_elements.or(chain.target_elements),
-            constraint_factor: self.constraint_factor.or(chain.constraint_factor),
-            border_shear: self.border_shear.or(chain.border_shear),
-            artificial_viscosity: self.artificial_viscosity.or(chain.artificial_viscosity),
+    /// Options of geometry `rod`: what is not given has the value of `[chain]`.
+    pub fn of_rod(&self, chain: &ChainOptions) -> RodOptions {
+        let elements = |own: Option<u32>, of_chain: usize| own.unwrap_or(of_chain as u32);
+        let viscosity = self.artificial_viscosity;
+        RodOptions {
+            projectile_elements: elements(self.projectile_elements, chain.projectile_elements()),
+            target_elements: elements(self.target_elements, chain.target_elements()),
+            constraint_factor: (self.constraint_factor)
+                .unwrap_or_else(|| chain.constraint_factor()),
+            border_shear: self.border_shear.unwrap_or_else(|| chain.border_shear()),
+            courant: self.courant(),
+            artificial_viscosity: viscosity.unwrap_or_else(|| chain.artificial_viscosity()),
             end_time: self.end_time.or(chain.end_time),
-            max_steps: self.max_steps.or(chain.max_steps),
-            end_at_rest: self.end_at_rest.or(chain.end_at_rest),
-            ..self.clone()
+            max_steps: self.max_steps.unwrap_or_else(|| chain.max_steps()),
+            end_at_rest: self.end_at_rest.unwrap_or_else(|| chain.end_at_rest()),
         }
     }
 }

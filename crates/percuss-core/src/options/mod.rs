@@ -41,7 +41,7 @@ pub use constraint_factor::constraint_factor;
 pub use crater_energy::CraterEnergyOptions;
 pub use defaults::MAX_STEPS;
 pub use energy_balance::EnergyBalanceOptions;
-pub use fdm::{FdmOptions, Geometry};
+pub use fdm::{FdmOptions, Geometry, RodOptions};
 pub use forrestal::{Cavity, Entry, ForrestalOptions};
 pub use forrestal_concrete::ForrestalConcreteOptions;
 pub use lambert_jonas::LambertJonasOptions;

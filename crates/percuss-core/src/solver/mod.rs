@@ -21,7 +21,7 @@ use crate::{
     Error, Refusal, Scenario,
     outcome::{Outcome, RunResult},
     regime::Regime,
-    validity::{Applicability, ValidityDomain},
+    validity::{Applicability, ValidityDomain, free_rear_face_assumed},
 };
 
 pub use checkpoint::CHECKPOINT_START;
@@ -192,6 +192,10 @@ pub fn complete(
         result.depth_of_penetration = None;
         result.largest_depth = None;
         result.permanent_depth = None;
+        if !model.has_fields() {
+            let assumed = free_rear_face_assumed(scenario);
+            result.warnings.extend(assumed.map(str::to_owned));
+        }
     }
     result.warnings.splice(0..0, warnings);
     Ok(result)

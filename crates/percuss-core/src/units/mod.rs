@@ -344,18 +344,6 @@ impl<D: Dimension> FromStr for Quantity<D> {
     }
 }
 
-/// The SI unit of a dimension, by the name of its schema definition; `None` where no dimension has that name.
-///
-/// ```
-/// assert_eq!(percuss::units::si_unit("Pressure"), Some("Pa"));
-/// ```
-pub fn si_unit(type_name: &str) -> Option<&'static str> {
-    let dimension = ALL_DIMENSIONS
-        .iter()
-        .find(|dimension| dimension.type_name == type_name)?;
-    dimension.units.first().map(|unit| unit.symbol)
-}
-
 /// Cuts a text that is quoted in a message to 40 characters.
 pub fn shorten(text: &str) -> String {
     if text.chars().count() <= 40 {

@@ -10,6 +10,20 @@ use crate::{
 pub const THROUGH_FIXED_FACE: &str = "the projectile reaches the rear face, which is fixed (the default): nothing behind it is a result. \
                                       Set `back_face = \"free\"`";
 
+/// Warning of a model without a mesh, which takes every rear face as free, behind a plate that it perforates.
+pub fn free_rear_face_assumed(scenario: &Scenario) -> Option<&'static str> {
+    match scenario.rear_face()? {
+        RearFaceCondition::Free => None,
+        RearFaceCondition::Fixed => Some(
+            "the model takes the rear face as free. The case fixes it (the default), so that nothing can leave the target: set \
+             `back_face = \"free\"`",
+        ),
+        RearFaceCondition::NonReflecting => Some(
+            "the model takes the rear face as free, and that of the case is non-reflecting: set `back_face = \"free\"`",
+        ),
+    }
+}
+
 /// Warning of a fixed rear face behind a plate that is not thick: perforation is impossible.
 pub fn fixed_rear_face_warning(scenario: &Scenario) -> Option<String> {
     let TargetBody::Layers {

@@ -53,6 +53,21 @@ impl Range {
         because: "the resistance is that of an infinite body: free surfaces within a few diameters weaken it",
     };
 
+    /// A warning on targets that are not much thicker than the projectile, for models whose cavity expands in an infinite body.
+    pub const INFINITE_CAVITY: Self = Self {
+        because: "the cavity expands in an infinite body: free surfaces within a few diameters weaken it",
+        ..Self::INFINITE_BODY
+    };
+
+    /// Rods that models of steady flow at the tip take.
+    pub const STEADY_FLOW: Self = Self {
+        measure: Measure::FlatRodLengthToDiameter,
+        min: 3.0,
+        max: f64::INFINITY,
+        outside: Outside::NotApplicable,
+        because: "its steady flow needs a rod that is long against the tip",
+    };
+
     /// Projectiles that models of a rigid one take. The softest with published limits, fragment simulators on ultra-high-hardness
     /// armour, have 0.52.
     pub const RIGID_AGAINST_PLATE: Self = Self {

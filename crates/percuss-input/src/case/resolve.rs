@@ -3,10 +3,10 @@
 use super::Case;
 use crate::{
     chain,
-    check::{Check, limits},
+    check::{Check, limits, limits::MAX_ELEMENTS},
     history::GaugePlace,
     material::{Library, MaterialEntry},
-    options::Scheme,
+    options::{ChainOptions, Scheme},
     problem::{Experiment, Gauge, Layer, Nose, RearFaceCondition, Thickness, Uncertainty},
     scenario::{
         Given, Measurement, Plate, PlateEdge, Rod, Scenario, TargetBody, modelled_thickness,
@@ -51,6 +51,10 @@ pub(super) fn resolve(
         given,
     };
     let chain = &mut scenario.options.chain;
+    if chain.projectile_elements.is_none() && chain.scheme == Scheme::Conservative {
+        scenario.options.chain.projectile_elements = long_projectile_elements(&scenario);
+    }
+    let chain = &mut scenario.options.chain;
     if chain.target_elements.is_none() && chain.scheme == Scheme::Conservative {
         scenario.options.chain.target_elements = thin_target_elements(&scenario);
     }
@@ -88,6 +92,14 @@ fn gauges(gauges: &[Gauge], scenario: &Scenario, check: &mut Check<'_>) -> Vec<G
         fixed: gauge.fixed,
     };
     gauges.iter().enumerate().map(place).collect()
+}
+
+/// Elements along a rod so long that those of the default number would be longer than half its diameter: what erodes at a time is one element.
+fn long_projectile_elements(scenario: &Scenario) -> Option<u32> {
+    let rod = &scenario.projectile;
+    let elements = (rod.length / (ChainOptions::LONGEST_ELEMENT * rod.diameter)).ceil();
+    let is_long = elements > f64::from(ChainOptions::PROJECTILE_ELEMENTS);
+    is_long.then_some(elements.min(f64::from(MAX_ELEMENTS)) as u32)
 }
 
 /// Elements through a target so thin that the default number would make them far shorter than the projectile's: a fourth of

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{axis::Axis, copula::Copula};
-use crate::{check::Check, document::Renamed, units::significant};
+use crate::{bisection::bisect, check::Check, document::Renamed, units::significant};
 
 /// Relative difference of two entries that are to be equal and may be rounded.
 const ROUNDED: f64 = 1e-9;
@@ -218,14 +218,8 @@ fn remedy(correlations: &[Vec<f64>]) -> String {
         }
         matrix
     };
-    let (mut good, mut bad) = (0.0, 1.0);
-    for _ in 0..30 {
-        let middle = 0.5 * (good + bad);
-        match Copula::new(Vec::new(), &shrunk(middle)) {
-            Some(_) => good = middle,
-            None => bad = middle,
-        }
-    }
+    let is_possible = |factor: f64| Copula::new(Vec::new(), &shrunk(factor)).is_some();
+    let (good, _) = bisect(0.0, 1.0, 30, is_possible);
     // Rounded down, so that what it says suffices.
     format!(
         "these correlations contradict each other; weaken them, for example multiply those off the diagonal by {}",

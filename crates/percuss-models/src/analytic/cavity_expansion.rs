@@ -2,6 +2,7 @@
 
 use std::{cell::RefCell, collections::VecDeque};
 
+use super::ode::fourth_order;
 use crate::{
     bisection::bisected,
     material::{Material, cavity_expansion_pressure, plastic_cavity_pressure},
@@ -194,7 +195,8 @@ impl CavityExpansion {
         at.ratio * interface * self.bulk_sound_speed()
     }
 
-    /// Solution for an expansion speed up to the largest one [m/s], by its interface speed: regula falsi, Illinois form.
+    /// Solution for an expansion speed up to the largest one [m/s], by its interface speed: regula falsi that halves the value of the other
+    /// end after each step.
     fn at_speed(&self, largest_speed: f64, speed: f64) -> Option<AtCavity> {
         let (mut low, mut high) = (0.0, LARGEST_INTERFACE_SPEED);
         let (mut below, mut above) = (-1.0, largest_speed / speed - 1.0);
@@ -247,14 +249,7 @@ impl CavityExpansion {
         let mut state = [1.0, stress];
         for i in 0..STEPS {
             let s = 1.0 + f64::from(i) * step;
-            let moved =
-                |by: f64, slope: [f64; 2]| [state[0] + by * slope[0], state[1] + by * slope[1]];
-            let first = rates(s, state);
-            let second = rates(s + step / 2.0, moved(step / 2.0, first));
-            let third = rates(s + step / 2.0, moved(step / 2.0, second));
-            let fourth = rates(s + step, moved(step, third));
-            let mean = |k: usize| (first[k] + 2.0 * (second[k] + third[k]) + fourth[k]) / 6.0;
-            state = moved(step, [mean(0), mean(1)]);
+            state = fourth_order(rates, s, state, step);
         }
         AtCavity {
             ratio: state[0],

@@ -4,10 +4,10 @@ use super::{
     deep_penetration::{DeepPenetration, NOT_ONE_TARGET, at_rest, never_yields, termination},
     nose_load::NoseLoad,
     rigid_motion::RigidMotion,
+    tate::{Phase, Rods},
 };
 use crate::{
     Error, Refusal, Scenario,
-    bisection::bisected,
     material::cavity_expansion_pressure,
     outcome::{BandQuantity, Detail, Outcome, RunResult},
     regime::{ProjectileRegime, Regime, STRENGTH_STRAIN, TargetKind},
@@ -34,24 +34,12 @@ impl CraterEnergy {
 }
 
 /// Speed of the bottom of a crater in steady flow [m/s]: `½ρ_p(V−U)² + Y = ½ρ_t U² + R`, between 0 and V.
-fn crater_speed(
-    densities: (f64, f64),
-    speed: f64,
-    projectile_strength: f64,
-    resistance: f64,
-) -> f64 {
-    let excess = |bottom: f64| {
-        0.5 * densities.0 * (speed - bottom).powi(2) + projectile_strength
-            - 0.5 * densities.1 * bottom * bottom
-            - resistance
-    };
-    if excess(0.0) <= 0.0 {
-        return 0.0;
+fn crater_speed(rods: &Rods, speed: f64) -> f64 {
+    match rods.phase(speed) {
+        Phase::Eroding => rods.penetration_speed(speed),
+        Phase::Rigid => speed,
+        Phase::Flattening => 0.0,
     }
-    if excess(speed) >= 0.0 {
-        return speed;
-    }
-    bisected(0.0, speed, 80, |bottom| excess(bottom) > 0.0)
 }
 
 /// Area of a crater over that of the rod that flows out in it: `1 + 2ρ_p(V−U)²/R`.
@@ -116,10 +104,14 @@ impl Model for CraterEnergy {
                 let growth = match (given, strength) {
                     (Some(ratio), _) => ratio * ratio,
                     (None, strength) => {
-                        let densities = (rod.material.density.si(), case.target.density.si());
-                        let strength = strength.unwrap_or(f64::INFINITY);
-                        let bottom = crater_speed(densities, case.speed, strength, resistance);
-                        crater_growth(densities.0, case.speed - bottom, resistance)
+                        let rods = Rods {
+                            projectile_density: rod.material.density.si(),
+                            target_density: case.target.density.si(),
+                            projectile_strength: strength.unwrap_or(f64::INFINITY),
+                            target_resistance: resistance,
+                        };
+                        let thrust = case.speed - crater_speed(&rods, case.speed);
+                        crater_growth(rods.projectile_density, thrust, resistance)
                     }
                 };
                 let depth = energy / (resistance * growth * rod.area());
@@ -182,7 +174,13 @@ mod tests {
             (2710.0, 7850.0),
         ] {
             let (speed, resistance, strength) = (1e6, 1e9, 1e9);
-            let bottom = crater_speed((projectile, target), speed, strength, resistance);
+            let rods = Rods {
+                projectile_density: projectile,
+                target_density: target,
+                projectile_strength: strength,
+                target_resistance: resistance,
+            };
+            let bottom = crater_speed(&rods, speed);
             let growth = crater_growth(projectile, speed - bottom, resistance);
             let depth = 0.5 * projectile * speed * speed / (resistance * growth);
             let lambda = (target / projectile).sqrt();
@@ -200,11 +198,14 @@ mod tests {
         assert_eq!(crater_growth(7850.0, 0.0, 1e9), 1.0);
         // At the limit of rigid penetration the bottom of the crater moves with the rod.
         let limit = (2.0 * (2e9 - 1e9) / 2710.0_f64).sqrt();
-        assert_eq!(
-            crater_speed((7850.0, 2710.0), 0.99 * limit, 2e9, 1e9),
-            0.99 * limit
-        );
-        let bottom = crater_speed((7850.0, 2710.0), 1.000001 * limit, 2e9, 1e9);
+        let rods = Rods {
+            projectile_density: 7850.0,
+            target_density: 2710.0,
+            projectile_strength: 2e9,
+            target_resistance: 1e9,
+        };
+        assert_eq!(crater_speed(&rods, 0.99 * limit), 0.99 * limit);
+        let bottom = crater_speed(&rods, 1.000001 * limit);
         assert!((bottom / limit - 1.0).abs() < 1e-3);
     }
 }

@@ -4,13 +4,12 @@ use crate::{
     Refusal, Scenario,
     bisection::bisect_ratio,
     material::{FlowState, Material},
+    options::ChainOptions,
     units::Pressure,
 };
 
 /// Panels of the mean over plastic strain.
 const PANELS: u32 = 100;
-/// Part of plastic work that becomes heat, as in the model `chain` by default.
-const HEAT_FRACTION: f64 = 0.9;
 /// How far from the initial yield stress a mean flow stress is looked for.
 const FACTOR: f64 = 1e4;
 const BISECTIONS: u32 = 100;
@@ -44,7 +43,7 @@ pub fn mean_flow_stress(material: &Material, plastic_strain: f64, strain_rate: f
     let prepared = law.prepare(material, 1.0);
     let heat = match material.specific_heat {
         Some(specific_heat) if law.depends_on_temperature() => {
-            HEAT_FRACTION / (material.density.si() * specific_heat.si())
+            ChainOptions::default().heat_fraction() / (material.density.si() * specific_heat.si())
         }
         _ => 0.0,
     };

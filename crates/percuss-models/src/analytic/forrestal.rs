@@ -120,13 +120,7 @@ impl Model for Forrestal {
                         outside: Outside::Warning,
                         because: "a short projectile spends much of its path entering, under a free surface",
                     },
-                    Range {
-                        measure: Measure::ThicknessToDiameter,
-                        min: 5.0,
-                        max: f64::INFINITY,
-                        outside: Outside::Warning,
-                        because: "the cavity expands in an infinite body: free surfaces within a few diameters weaken it",
-                    },
+                    Range::INFINITE_CAVITY,
                 ],
                 sees_back_face: false,
                 first_choice: &[FirstChoice {

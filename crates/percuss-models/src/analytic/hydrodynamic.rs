@@ -32,13 +32,7 @@ impl Model for Hydrodynamic {
                 projectile: &[ProjectileRegime::Eroding],
                 targets: TargetKind::DEEP,
                 ranges: &[
-                    Range {
-                        measure: Measure::FlatRodLengthToDiameter,
-                        min: 3.0,
-                        max: f64::INFINITY,
-                        outside: Outside::NotApplicable,
-                        because: "its steady flow needs a rod that is long against the tip",
-                    },
+                    Range::STEADY_FLOW,
                     Range {
                         measure: Measure::ImpactSpeed,
                         min: 3000.0,

@@ -16,7 +16,7 @@ pub(super) struct ImpactWave {
 impl ImpactWave {
     /// Waves of a projectile's and a target's material, as in the bulk.
     pub(super) fn of(projectile: &Material, target: &Material) -> Self {
-        let speeds = [projectile, target].map(sound_speed);
+        let speeds = [projectile, target].map(Material::bulk_sound_speed);
         let own = projectile.density.si() * speeds[0];
         let other = target.density.si() * speeds[1];
         Self {
@@ -24,13 +24,5 @@ impl ImpactWave {
             speed: speeds[0],
             ratio: speeds[1] / speeds[0],
         }
-    }
-}
-
-/// Speed of a weak plane wave in the bulk of a material [m/s].
-fn sound_speed(material: &Material) -> f64 {
-    match &material.equation_of_state {
-        Some(state) => state.sound_speed.si(),
-        None => (material.bulk_modulus() / material.density.si()).sqrt(),
     }
 }

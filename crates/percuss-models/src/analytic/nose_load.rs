@@ -1,5 +1,6 @@
 //! Axial load on a nose that pushes a material aside, frictionless or with Coulomb friction.
 
+use super::ode::fourth_order;
 use crate::{bisection::bisect, problem::Nose};
 
 /// Steps along a nose.
@@ -167,17 +168,7 @@ impl NoseLoad {
             ]
         };
         let state = [point.strength, point.inertia, point.path, point.work];
-        let moved = |by: f64, slope: [f64; 4]| -> [f64; 4] {
-            std::array::from_fn(|k| state[k] + by * slope[k])
-        };
-        let first = rates(s, state);
-        let second = rates(s + step / 2.0, moved(step / 2.0, first));
-        let third = rates(s + step / 2.0, moved(step / 2.0, second));
-        let fourth = rates(s + step, moved(step, third));
-        let end = moved(
-            step,
-            std::array::from_fn(|k| (first[k] + 2.0 * (second[k] + third[k]) + fourth[k]) / 6.0),
-        );
+        let end = fourth_order(rates, s, state, step);
         Loaded {
             depth: self.length * (s + step).powi(2),
             strength: end[0],

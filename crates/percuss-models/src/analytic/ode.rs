@@ -51,6 +51,22 @@ const MAX_ATTEMPTS: u32 = 200_000;
 /// Bisections of the last step: they place the event to rounding.
 const BISECTIONS: u32 = 60;
 
+/// One step of the classical Runge–Kutta method of fourth order.
+pub(super) fn fourth_order<const N: usize>(
+    rates: impl Fn(f64, [f64; N]) -> [f64; N],
+    at: f64,
+    state: [f64; N],
+    step: f64,
+) -> [f64; N] {
+    let moved = |by: f64, slope: [f64; N]| std::array::from_fn(|k| state[k] + by * slope[k]);
+    let first = rates(at, state);
+    let second = rates(at + step / 2.0, moved(step / 2.0, first));
+    let third = rates(at + step / 2.0, moved(step / 2.0, second));
+    let fourth = rates(at + step, moved(step, third));
+    let mean = |k: usize| (first[k] + 2.0 * (second[k] + third[k]) + fourth[k]) / 6.0;
+    moved(step, std::array::from_fn(mean))
+}
+
 /// An autonomous initial value problem that ends when its event function falls to zero.
 pub(super) struct Problem<'a, const N: usize> {
     /// Rates of the state.

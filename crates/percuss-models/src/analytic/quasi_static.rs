@@ -13,7 +13,7 @@ use crate::{
     regime::{ProjectileRegime, TargetKind},
     solver::{Control, Model},
     units::significant,
-    validity::{Measure, Outside, Range, ValidityDomain},
+    validity::{Range, ValidityDomain},
 };
 
 /// Dynamic pressure over the quasi-static one from which on a depth without inertia is warned of.
@@ -38,13 +38,7 @@ impl Model for QuasiStatic {
                 predicts: &[BandQuantity::DepthOfPenetration],
                 projectile: &[ProjectileRegime::Rigid],
                 targets: TargetKind::DEEP,
-                ranges: &[Range {
-                    measure: Measure::ThicknessToDiameter,
-                    min: 5.0,
-                    max: f64::INFINITY,
-                    outside: Outside::Warning,
-                    because: "the cavity expands in an infinite body: free surfaces within a few diameters weaken it",
-                }],
+                ranges: &[Range::INFINITE_CAVITY],
                 sees_back_face: false,
                 notes: &[
                     "no inertia of the target: good at low speed, too deep at high speed",

@@ -276,7 +276,7 @@ impl LaneSums {
             leaving |= u8::from((mass[l] > 0.0) & (stays[l] == 0.0)) << l;
         }
         for l in (0..LANES).filter(|l| leaving >> l & 1 == 1) {
-            take_out(block, l, kinetic[l], law, sums);
+            take_out(block, l, kinetic[l], (law, limits.front), sums);
         }
     }
 
@@ -312,7 +312,13 @@ impl LaneSums {
 
 /// Takes a particle out of its body: it has eroded, or left where particles are followed, or ceased to be one.
 #[cold]
-fn take_out(block: &mut Block, lane: usize, kinetic: f64, law: &Law, sums: &mut Sums) {
+fn take_out(
+    block: &mut Block,
+    lane: usize,
+    kinetic: f64,
+    (law, front): (&Law, f64),
+    sums: &mut Sums,
+) {
     let particle = block.particle(lane);
     block.take_out(lane);
     let [radius, depth] = particle.position;
@@ -323,5 +329,8 @@ fn take_out(block: &mut Block, lane: usize, kinetic: f64, law: &Law, sums: &mut 
     sums.lost.0 += 1;
     sums.lost.1 += particle.mass * particle.velocity[1];
     sums.lost.2 += kinetic;
+    if depth > front {
+        sums.passed += particle.mass;
+    }
     sums.work.failure += law.elastic_energy(&particle);
 }

@@ -94,6 +94,8 @@ pub(super) struct Sums {
     pub(super) work: WorkSums,
     /// What left the body in the step: particles, their axial momentum and kinetic energy.
     pub(super) lost: (usize, f64, f64),
+    /// Mass of it that left at the front [kg].
+    pub(super) passed: f64,
     /// Largest square of a wave speed and of a particle's speed [m2/s2].
     pub(super) wave_squared: f64,
     pub(super) speed_squared: f64,
@@ -115,6 +117,7 @@ impl Sums {
         self.lost.0 += other.lost.0;
         self.lost.1 += other.lost.1;
         self.lost.2 += other.lost.2;
+        self.passed += other.passed;
         self.wave_squared = self.wave_squared.max(other.wave_squared);
         self.speed_squared = self.speed_squared.max(other.speed_squared);
         self.broken |= other.broken;

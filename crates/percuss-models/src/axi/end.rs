@@ -3,6 +3,7 @@
 use super::{opening::is_open, solver::Grid};
 use crate::{
     outcome::{Outcome, Termination},
+    problem::RearFaceCondition,
     scenario::Scenario,
     solver::monitor::RunMonitor,
 };
@@ -13,6 +14,9 @@ const REST_FRACTION: f64 = 0.01;
 const QUIET_FRACTION: f64 = 1e-3;
 /// Part of the impact velocity by which a projectile that has come through may still slow in a window.
 const FREE_FRACTION: f64 = 1e-3;
+
+/// Part of the projectile that has to leave the modelled space, which ends two of its lengths behind the rear face: the rest has come through.
+const PASSED_FRACTION: f64 = 0.01;
 
 /// One round trip of a wave in the projectile, in which a run that is over changes no more.
 #[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
@@ -40,6 +44,12 @@ impl Window {
             return Some(Termination::ProjectileConsumed);
         }
         let rod = &scenario.projectile;
+        // Metal that flies along in front of it may seem to connect a projectile with the target.
+        let has_passed = grid.accumulated.passed > PASSED_FRACTION * rod.mass;
+        if has_passed && scenario.rear_face() == Some(RearFaceCondition::Free) {
+            self.open = true;
+            return Some(Termination::LeftTarget);
+        }
         if grid.time < self.start + 2.0 * rod.length / rod.material.bar_wave_speed() {
             return None;
         }

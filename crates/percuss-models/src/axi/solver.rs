@@ -65,6 +65,8 @@ pub(super) struct Accumulators {
     pub(super) lost_momentum: f64,
     /// Particles that left, of the projectile and of the target.
     pub(super) lost: [usize; 2],
+    /// Mass of the projectile that left at the front [kg].
+    pub(super) passed: f64,
 }
 
 /// What a motion of the nodes adds to the accumulated.
@@ -175,6 +177,9 @@ impl Grid {
                 accumulated.half_work[role][k] += work - first;
             }
             accumulated.lost[role] += sums.lost.0;
+            if role == 0 {
+                accumulated.passed += sums.passed;
+            }
             accumulated.lost_momentum += sums.lost.1;
             accumulated.lost_energy += sums.lost.2;
             accumulated.transfer -= sums.kinetic + sums.lost.2;

@@ -4,7 +4,7 @@ use super::expanding::{self, CavityRun};
 use crate::{
     Error,
     options::{ErosionStrain, TargetResistanceModel},
-    outcome::{Band, BandQuantity, RunResult},
+    outcome::{Band, BandQuantity, RunResult, Termination},
     scenario::Scenario,
     solver::Control,
     units::significant,
@@ -14,6 +14,9 @@ use crate::{
 const NOTABLE_DIFFERENCE: f64 = 0.1;
 /// Erosion strain below which the rod would lose material that still presses on the target.
 const EARLIEST_EROSION: f64 = 1.0;
+
+/// Steps of a run without erosion, whose crushed elements make the step ever smaller, after which it is given up.
+const MOST_STEPS: u64 = 500_000;
 
 /// Adds which target resistance model is in force where the case did not choose it and it is not the usual one, and the range of the
 /// depth over the erosion strain where the rod eroded.
@@ -102,17 +105,28 @@ fn over_erosion(
         return Ok(None);
     };
     let mut band = [depth, depth];
+    let mut basis =
+        "erosion strain from 1 to the default: a numerical limit without a measured value";
     for strain in [ErosionStrain::At(EARLIEST_EROSION), ErosionStrain::Never] {
-        let change = |other: &mut Scenario| other.options.chain.erosion_strain = Some(strain);
+        let change = |other: &mut Scenario| {
+            let chain = &mut other.options.chain;
+            chain.erosion_strain = Some(strain);
+            chain.max_steps = Some(chain.max_steps().min(MOST_STEPS));
+        };
         let found = beside(scenario, change, control)?;
+        let found = found.filter(|found| found.termination != Termination::StepLimit);
         if let Some(depth) = found.and_then(|found| found.depth_of_penetration) {
             band = [band[0].min(depth), band[1].max(depth)];
+            if strain == ErosionStrain::Never {
+                basis =
+                    "erosion strain from 1 to never: a numerical limit without a measured value";
+            }
         }
     }
     Ok(Some(Band {
         quantity: BandQuantity::DepthOfPenetration,
         low: band[0] * 1e3,
         high: band[1] * 1e3,
-        basis: "erosion strain from 1 to never: a numerical limit without a measured value",
+        basis,
     }))
 }

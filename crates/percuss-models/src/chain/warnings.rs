@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::plug;
 use crate::{
     material::{Material, Reached, cavity_expansion_pressure_at},
-    options::{BorderShearLaw, ErosionCriterion, TargetResistanceModel},
+    options::{BorderShearLaw, ChainOptions, ErosionCriterion, TargetResistanceModel},
     outcome::{Outcome, RunResult},
     problem::RearFaceCondition,
     regime::{STRENGTH_STRAIN, THIN, is_thinner},
@@ -24,6 +24,9 @@ const FREE_OF_BACK_FACE: f64 = 0.5;
 const NEAR_COLUMN: f64 = 1.0;
 /// Thickness in projectile diameters from which on dishing adds less than a tenth to the depth in the axisymmetric reference.
 const FREE_OF_DISHING: f64 = 3.0;
+
+/// Length of an element in projectile diameters from which on an eroding rod does not go as deep as one of fine elements.
+const LONGEST_ERODING: f64 = 0.75;
 
 /// Warnings of a run, the weightiest first.
 pub(super) fn warnings(
@@ -264,6 +267,15 @@ fn warn_of_erosion(
     warnings: &mut Vec<String>,
 ) {
     let (projectile, target) = result.numerics().eroded_elements;
+    let rod = &scenario.projectile;
+    let element = rod.length / scenario.options.chain.projectile_elements() as f64;
+    if projectile > 0 && element > LONGEST_ERODING * rod.diameter {
+        warnings.push(format!(
+            "the elements of the projectile are {} diameters long, and one erodes at a time: raise `chain.projectile_elements` to {:.0}",
+            significant(element / rod.diameter, 2),
+            (rod.length / (ChainOptions::LONGEST_ELEMENT * rod.diameter)).ceil()
+        ));
+    }
     let by_strain = scenario.options.chain.erosion_criterion() == ErosionCriterion::Strain;
     if projectile + target > 0 && by_strain {
         warnings.push(format!(

@@ -14,7 +14,7 @@ pub use planar::StateEquation;
 
 use crate::{
     Error, Refusal, Scenario,
-    options::{ChainOptions, ErosionStrain},
+    options::ErosionStrain,
     outcome::{Outcome, RunResult},
     regime::{ProjectileRegime, Regime, STRENGTH_STRAIN, struck_end_strain},
     solver::{
@@ -173,18 +173,9 @@ pub fn elements(scenario: &Scenario) -> (u32, u32) {
     match scenario.options.fdm.geometry {
         Geometry::Planar => planar::cells(scenario),
         Geometry::Rod => {
-            let options = scenario
-                .options
-                .fdm
-                .with_defaults_of(&scenario.options.chain);
-            (
-                options
-                    .projectile_elements
-                    .unwrap_or(ChainOptions::PROJECTILE_ELEMENTS),
-                options
-                    .target_elements
-                    .unwrap_or(ChainOptions::TARGET_ELEMENTS),
-            )
+            let (fdm, chain) = (&scenario.options.fdm, &scenario.options.chain);
+            let options = fdm.of_rod(chain);
+            (options.projectile_elements, options.target_elements)
         }
     }
 }

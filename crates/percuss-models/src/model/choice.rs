@@ -3,7 +3,7 @@
 use super::{
     Control, MODELS, Model, applicability_in, fast_models, memory, model, recommend, run_in,
 };
-use crate::{Error, Scenario, outcome::RunResult, regime::Regime};
+use crate::{Error, Scenario, outcome::RunResult, quote::capitalized, regime::Regime};
 
 /// Name of the model of a run that names none.
 pub const DEFAULT_MODEL: &str = "chain";
@@ -114,7 +114,7 @@ pub fn default_model(scenario: &Scenario) -> Result<ChosenModel, Error> {
             model: model(name)?,
             note: Some(format!(
                 "model `{name}` instead of the default `{DEFAULT_MODEL}`, which does not apply: {refused}. {}",
-                capitalised(&why)
+                capitalized(&why)
             )),
         }),
         None => Err(Error::NoModelApplies {
@@ -148,13 +148,6 @@ fn gives_result(
         Err(Error::NotApplicable { refusal, .. }) => Err(refusal.to_string()),
         Err(error) => Err(error.to_string()),
     }
-}
-
-fn capitalised(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| {
-        first.to_uppercase().chain(letters).collect()
-    })
 }
 
 #[cfg(test)]

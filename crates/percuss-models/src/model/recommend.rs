@@ -104,7 +104,11 @@ pub fn recommend(
         choices.retain(|choice| own.given.iter().all(|own| own.model != choice.model));
         (neighbour, choices)
     });
-    let neighbour = neighbour.filter(|(_, choices)| !choices.is_empty());
+    // A rigid rod goes much deeper than one that erodes: its model is no stand-in, only one to compare with.
+    let is_stand_in = !own.given.is_empty() || regime.projectile != ProjectileRegime::Eroding;
+    let neighbour = neighbour.filter(|(kind, choices)| {
+        !choices.is_empty() && (is_stand_in || *kind != ProjectileRegime::Rigid)
+    });
     let mut notes: Vec<String> = own
         .missed
         .iter()

@@ -46,10 +46,34 @@ use crate::{
     Error, Refusal, Scenario,
     outcome::{BandQuantity, RunResult},
     regime::{ProjectileRegime, TargetKind},
-    solver::{Control, CostClass, Estimate, Model, driver::Drive, estimate::WorkRate},
+    solver::{
+        Control, CostClass, Estimate, Model,
+        driver::Drive,
+        estimate::WorkRate,
+        interface::{Audit, BalanceTolerance, Retry},
+    },
     units::Length,
     validity::{NoseKind, ValidityDomain},
 };
+
+/// Steps between two checks of the balances.
+const INTERVAL: u64 = 50;
+/// How often and how strictly the balances are checked.
+const AUDIT: Audit = Audit {
+    interval: INTERVAL,
+    report_interval: INTERVAL,
+    tolerance: BalanceTolerance {
+        energy: 1e-3,
+        momentum: 1e-9,
+    },
+    retry: Retry::OfBalance { smallest: 0.1 },
+};
+
+/// Courant number that a case gives, and the default.
+fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
+    let given = scenario.options.particles.courant;
+    (given, ParticlesOptions::default().courant())
+}
 
 /// Memory of a particle in space, twice as much where bonds break, and its rate.
 const WORK_IN_SPACE: WorkRate = WorkRate {

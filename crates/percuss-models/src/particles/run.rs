@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use super::{
+    AUDIT, INTERVAL,
     bonded::{At, Bonded, Load, from_axis},
     cracks::{Front, Notches},
     debris::{ContactLaw, Debris},
@@ -16,7 +17,6 @@ use crate::{
     error::NumericalError,
     history::{ElementState, Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
-    options::ParticlesOptions,
     outcome::{Outcome, RunResult, Termination},
     solver::{
         Control, Particle,
@@ -24,14 +24,12 @@ use crate::{
         driver::Drive,
         frames::{Across, Bond, BondSource, Bonds, Fields, PointSource, Points},
         gauge::Gauge,
-        interface::{Audit, BalanceTolerance, Extremes, Retry, Solver},
+        interface::{Audit, Extremes, Solver},
         limits::Limits,
         monitor::{Clock, Probe, RunMonitor},
     },
 };
 
-/// Steps between two checks of the balances.
-const INTERVAL: u64 = 50;
 /// Steps between two looks at the cracks.
 const LOOK: u64 = 10;
 /// Steps between two looks at the largest stable step, and the part of it that a smaller step takes, so that changes are few.
@@ -192,15 +190,7 @@ impl<B: Bonded<D>, const D: usize> BondSource for Impact<'_, B, D> {
 
 impl<'a, B: Bonded<D>, const D: usize> Solver<'a> for Impact<'a, B, D> {
     const NAMES: (&'static str, &'static str) = ("particles", B::LATTICE);
-    const AUDIT: Audit = Audit {
-        interval: INTERVAL,
-        report_interval: INTERVAL,
-        tolerance: BalanceTolerance {
-            energy: 1e-3,
-            momentum: 1e-9,
-        },
-        retry: Retry::OfBalance { smallest: 0.1 },
-    };
+    const AUDIT: Audit = AUDIT;
 
     fn build(
         scenario: &'a Scenario,
@@ -259,8 +249,7 @@ impl<'a, B: Bonded<D>, const D: usize> Solver<'a> for Impact<'a, B, D> {
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
-        let options = &scenario.options.particles;
-        (options.courant, ParticlesOptions::default().courant())
+        super::courant(scenario)
     }
 
     fn limits(&self) -> Limits {

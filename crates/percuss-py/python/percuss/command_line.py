@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
 from typing import Any, TypeAlias
 
@@ -43,7 +43,7 @@ def execute(
             name = f"\0case-{len(cases) + 1}"
             cases[name] = value._native
             return name
-        return os.fspath(value) if isinstance(value, os.PathLike) else str(value)
+        return os.fsdecode(value) if isinstance(value, (os.PathLike, bytes)) else str(value)
 
     line = ["percuss", *command.split()]
     for name, value in options.items():
@@ -75,7 +75,7 @@ def formats(figures: str | Sequence[str] | None) -> str | None:
     return figures if figures is None or isinstance(figures, str) else ",".join(figures) or "none"
 
 
-def speeds(speeds: Speed | Sequence[float] | None) -> str | None:
+def speeds(speeds: Speed | Iterable[float] | None) -> str | None:
     """Velocities as text of the command line, with all digits."""
     if speeds is None or isinstance(speeds, str):
         return speeds

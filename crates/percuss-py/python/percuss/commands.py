@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from numbers import Real
 from typing import Any, TypeAlias
 
@@ -159,7 +159,7 @@ def run(
 def compare(
     case: CaseLike,
     *,
-    velocity: Speed | Sequence[float] | None = None,
+    velocity: Speed | Iterable[float] | None = None,
     model: str | Sequence[str] | None = None,
     reference: str | None = None,
     fast: bool = False,
@@ -175,7 +175,7 @@ def compare(
     ----------
     case : Case or path
         The case, or its file.
-    velocity : float, sequence of float or str, optional
+    velocity : float, iterable of float or str, optional
         Impact velocities [m/s], or a value of ``--velocity`` such as ``"200..1500:27"`` or ``"experiments"``; that of the case when
         not given.
     model : str or sequence of str, optional

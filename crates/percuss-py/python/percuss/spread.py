@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _percuss, laws, study_plots
@@ -142,7 +142,7 @@ def uncertainty(
     samples: int | None = None,
     seed: int | None = None,
     quantity: str | Sequence[str] | None = None,
-    velocity: Speed | Sequence[float] | None = None,
+    velocity: Speed | Iterable[float] | None = None,
     no_indices: bool = False,
     axisymmetric: int | None = None,
     threads: int | None = None,

@@ -9,7 +9,7 @@ const STYLE: &str = "\
 *{box-sizing:border-box}\
 body{margin:0 auto;padding:1.5rem 1rem 4rem;max-width:74rem;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,sans-serif}\
 h1{font-size:1.7rem;line-height:1.2}h2{margin-top:2.5rem;padding-top:.6rem;border-top:1px solid var(--line)}h3{margin-top:1.8rem}\
-p,li{max-width:52rem}a{color:var(--link)}\
+p,li{max-width:52rem;overflow-wrap:anywhere}a{color:var(--link)}\
 .wide{overflow-x:auto;margin:.8rem 0}\
 table{border-collapse:collapse;font-size:.86rem;font-variant-numeric:tabular-nums}\
 th,td{padding:.25rem .7rem;text-align:left;vertical-align:top;border-bottom:1px solid var(--line)}\

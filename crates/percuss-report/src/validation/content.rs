@@ -30,7 +30,7 @@ pub(super) fn page<'a>(
                 "A test counts once, with the main material record of its projectile. Alternative records are in the tables by material record.",
                 "Heated rods have a separate line, because few models apply to them. All others are compared at room temperature.",
                 "Suspect tests, repeated tests and partial penetrations (measured residual velocity 0) are computed and listed, but not counted.",
-                "predictions.csv and predictions.parquet contain all numbers, with the source of each test.",
+                "predictions.csv and predictions.parquet, which percuss validate --out FOLDER writes, contain all numbers, with the source of each test.",
             ]
             .map(str::to_owned)
             .to_vec(),

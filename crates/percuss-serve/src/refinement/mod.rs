@@ -8,10 +8,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use axum::{
-    extract::{Request, State},
-    response::{IntoResponse, Response},
-};
+use axum::{extract::State, response::Response};
 use percuss::{
     Error, Refusal, Scenario,
     axisymmetric::{
@@ -34,12 +31,7 @@ use self::{
     frames::{FrameEncoder, QUANTITIES},
     messages::MessageSender,
 };
-use crate::{
-    RequestLimits,
-    job::Workers,
-    problem::Problem,
-    request::{self, CaseRequest},
-};
+use crate::{RequestLimits, job::Workers, problem::Problem, request::CaseRequest};
 
 /// Name of the model.
 const MODEL: &str = "axi";
@@ -51,11 +43,7 @@ const REPORT: Duration = Duration::from_millis(50);
 const BODY_COLORS: u8 = 4;
 
 /// `POST /api/refinement`.
-pub(crate) async fn post(State(workers): State<Workers>, request: Request) -> Response {
-    let asked: CaseRequest = match request::read(request).await {
-        Ok(asked) => asked,
-        Err(problem) => return problem.into_response(),
-    };
+pub(crate) async fn post(State(workers): State<Workers>, asked: CaseRequest) -> Response {
     let bounds = *workers.bounds();
     messages::respond(&workers, move |client| refine(&asked, &bounds, client)).await
 }

@@ -51,9 +51,10 @@ pub(super) fn compared(job: &Job<'_>) -> Result<Study, Problem> {
 fn speeds(from: f64, to: f64, count: usize) -> Result<Vec<f64>, Problem> {
     let inside = |speed: f64| (0.0..=10_000.0).contains(&speed);
     if !inside(from) || !inside(to) || !(2..=SPEEDS).contains(&count) {
-        return Err(Problem::bad_request(format!(
-            "give 2 to {SPEEDS} velocities from 0 to 10000 m/s"
-        )));
+        return Err(Problem::refused(
+            format!("{count} velocities from {from} to {to} m/s"),
+            format!("allowed: 2 to {SPEEDS} velocities from 0 to 10000 m/s"),
+        ));
     }
     Ok(evenly(from, to, count as u64 - 1).collect())
 }

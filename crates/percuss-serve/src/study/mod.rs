@@ -14,7 +14,7 @@ mod uncertain_example;
 use std::{collections::BTreeMap, ops::ControlFlow};
 
 use axum::{
-    extract::{Path, Request, State},
+    extract::{Path, State},
     http::StatusCode,
     response::{IntoResponse, Response},
 };
@@ -32,7 +32,7 @@ use crate::{
     http,
     job::{Stop, Workers},
     problem::Problem,
-    request::{self, CaseRequest, ReadCase},
+    request::{CaseRequest, ReadCase},
     response,
 };
 
@@ -91,12 +91,8 @@ impl Study {
 pub(crate) async fn post(
     State(workers): State<Workers>,
     Path(kind): Path<String>,
-    request: Request,
+    asked: CaseRequest,
 ) -> Response {
-    let asked: CaseRequest = match request::read(request).await {
-        Ok(asked) => asked,
-        Err(problem) => return problem.into_response(),
-    };
     match kind.as_str() {
         "compare" => follow(&workers, asked, compared::compared).await,
         "converge" => follow(&workers, asked, converged::converged).await,
@@ -131,38 +127,34 @@ async fn follow<T: Serialize + 'static>(
 /// `POST /api/uncertainty-example`: the text of a case with an example of what is uncertain in it.
 pub(crate) async fn uncertainty_example(
     State(workers): State<Workers>,
-    request: Request,
+    asked: CaseRequest,
 ) -> Response {
     let example = |asked: &CaseRequest, _: &RequestLimits, _: &Stop| {
         let read = asked.read(asked.edited()?)?;
         Ok(uncertain_example::with_example(&read.text, &read.scenario))
     };
-    changed(workers, request, example).await
+    changed(workers, asked, example).await
 }
 
 /// `POST /api/calibration-example`: the text of a case with an example of measured values in it.
 pub(crate) async fn calibration_example(
     State(workers): State<Workers>,
-    request: Request,
+    asked: CaseRequest,
 ) -> Response {
     let example = |asked: &CaseRequest, bounds: &RequestLimits, stop: &Stop| {
         let ReadCase { text, scenario } = asked.read(asked.edited()?)?;
         let chosen = asked.model(&scenario, bounds)?;
         calibration_example::with_example(&text, &scenario, &chosen, stop)
     };
-    changed(workers, request, example).await
+    changed(workers, asked, example).await
 }
 
 /// Answers with the changed text of a case.
 async fn changed(
     workers: Workers,
-    request: Request,
+    asked: CaseRequest,
     change: fn(&CaseRequest, &RequestLimits, &Stop) -> Result<String, Problem>,
 ) -> Response {
-    let asked: CaseRequest = match request::read(request).await {
-        Ok(asked) => asked,
-        Err(problem) => return problem.into_response(),
-    };
     let bounds = *workers.bounds();
     let text = workers.run(move |stop| change(&asked, &bounds, stop));
     match text.await {

@@ -42,6 +42,9 @@ fn a_mesh_has_a_size() {
     assert_eq!(answer.problem(), "the mesh has 4040 elements");
     let answer = served.post("/api/answer", &json!({ "case": fine, "model": "fdm" }));
     assert_eq!(answer.status, 422);
+    let long = PAPER.replace("projectile_elements = 40", "projectile_elements = 4000");
+    let answer = served.post("/api/answer", &json!({ "case": long, "model": "chain" }));
+    assert_eq!(answer.json()["problem"]["key"], "chain.projectile_elements");
     // Three refinements of 40 and 80 elements are more than 200.
     let asked = json!({ "case": PAPER, "model": "chain" });
     let last = outcome(&served, "converge", &asked);

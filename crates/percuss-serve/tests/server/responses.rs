@@ -210,6 +210,29 @@ fn materials_are_pages() {
     assert!(list.contains("href=\"/materials/aluminium-2024-t351"));
     let card = served.get("/materials/copper", "").text();
     assert!(card.contains("Young&#39;s modulus") && card.contains("sources"));
-    assert_eq!(served.get("/materials/unobtainium", "").status, 404);
-    assert_eq!(served.get("/validation", "").status, 404);
+    assert!(card.contains("<a href=\"/\">Case</a>"), "{card}");
+}
+
+#[test]
+fn a_page_that_is_not_there_is_a_page_with_the_way_back() {
+    let served = Served::new(Options::default());
+    for (path, title) in [
+        ("/materials/unobtainium", "There is no such page"),
+        ("/nowhere", "There is no such page"),
+        ("/validation", "The validation is not computed yet"),
+    ] {
+        let answer = served.get(path, "Accept: text/html\r\n");
+        assert_eq!(answer.status, 404, "{path}");
+        let text = answer.text();
+        assert!(
+            text.contains(&format!("<h1>{title}</h1>")),
+            "{path}: {text}"
+        );
+        assert!(text.contains("<a href=\"/\">Case</a>"), "{path}: {text}");
+    }
+    // A program is answered in JSON.
+    assert_eq!(
+        served.get("/nowhere", "").problem(),
+        "there is no such page"
+    );
 }

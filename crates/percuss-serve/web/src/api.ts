@@ -10,7 +10,7 @@ export class Refused extends Error {
 
 export const lost: Problem = {
   message: "the server does not respond",
-  help: "check that `percuss serve` is running, then reload the page",
+  help: "check that `percuss serve` is running at this address, then try again",
   key: "",
   place: null,
 };
@@ -52,7 +52,10 @@ export async function follow<T>(
   const reader = response.body?.pipeThrough(new TextDecoderStream()).getReader();
   let rest = "";
   while (reader) {
-    const { value, done } = await reader.read();
+    const { value, done } = await reader.read().catch((error: unknown) => {
+      if (signal.aborted) throw error;
+      throw new Refused(lost, {});
+    });
     if (done) break;
     const lines = (rest + value).split("\n");
     rest = lines.pop() ?? "";

@@ -49,7 +49,7 @@ export function calibration(page: Page, numbers: Numbers): Kind {
       name: "taylor-copper-wilkins",
       about: "Four Taylor tests of copper rods, to which the first strength constant is fitted.",
       suits: () => false,
-      refusal: /no measured value/,
+      refusal: /^the case has no measured value/,
       loaded: () => parameters.reset(),
     },
   };
@@ -144,7 +144,11 @@ function predictions({ calibration: found }: Calibrated): HTMLElement {
 // Gives a case without measured values an example of them.
 async function prepare(page: Page): Promise<string | null> {
   if (page.hasMeasured()) return null;
-  const done = await post<{ case: string }>("/api/calibration-example", page.request());
-  await page.insert(done.case);
+  for (let isIn = false; !isIn;) {
+    await page.settled();
+    const asked = page.request();
+    const done = await post<{ case: string }>("/api/calibration-example", asked);
+    isIn = await page.insert(done.case, asked.case);
+  }
   return "The case had no measured values: an example is now at the end of its text, computed numbers that were changed. Replace them by your own, then press Calibrate. Undo removes them.";
 }

@@ -211,9 +211,8 @@ export class Impact {
     return Math.max(0, this.quantity.selectedIndex);
   }
 
-  private shot(frame: Frame, latest: Frame): Shot {
-    const quantity = this.chosen();
-    const range = this.own.checked ? frame.head.own_ranges[quantity] : latest.head.ranges[quantity];
+  private shot(frame: Frame, latest: Frame, quantity = this.chosen(), ofFrame = this.own.checked): Shot {
+    const range = ofFrame ? frame.head.own_ranges[quantity] : latest.head.ranges[quantity];
     return { frame, latest, quantity, range: range ?? [0, 1] };
   }
 
@@ -256,24 +255,39 @@ export class Impact {
   }
 
   // Runs a job with the frames on a canvas of its own size.
-  private async take(size: Size, job: (reel: Reel, name: string, report: Report) => Promise<void>, stem: string): Promise<void> {
+  private async take(size: Size, job: (reel: Reel, name: string, report: Report) => Promise<boolean>, stem: string): Promise<void> {
     const { shown: film, section, index } = this;
     const latest = film?.frames.at(-1);
     if (!film || !latest || !section || this.recording) return;
+    const isStale = () => this.shown !== film || this.element.classList.contains("stale");
+    if (isStale()) {
+      this.state.textContent = "no file: this is the impact of the case before it was changed";
+      return;
+    }
     this.recording = true;
+    let isCancelled = false;
     this.pause();
+    // A file has one name, one quantity and one kind of range, whatever is chosen meanwhile.
+    const [name, quantity, ofFrame] = [`${this.name()}-${stem}`, this.chosen(), this.own.checked];
+    const buttons = this.files.querySelectorAll("button");
+    buttons.forEach((control) => (control.disabled = true));
+    const words = make("span");
+    this.state.replaceChildren(words, " ", button("Cancel", () => (isCancelled = true)));
     const canvas = document.createElement("canvas");
-    const draw = (at: number) => section.paint(canvas, this.shot(film.frames[at] ?? latest, latest), size);
+    const draw = (at: number) => section.paint(canvas, this.shot(film.frames[at] ?? latest, latest, quantity, ofFrame), size);
     draw(index);
     const report = (part: number) => {
-      this.state.textContent = `writing … ${Math.round(100 * part)} %`;
-      return this.shown === film && !this.element.classList.contains("stale");
+      words.textContent = `writing … ${Math.round(100 * part)} %`;
+      return !isCancelled && !isStale();
     };
+    let ending = "";
     try {
-      await job({ canvas, count: film.frames.length, draw }, `${this.name()}-${stem}`, report);
+      const isThere = await job({ canvas, count: film.frames.length, draw }, name, report);
+      if (!isThere) ending = isCancelled ? "cancelled" : "no file: the case was changed";
     } finally {
       this.recording = false;
-      this.state.textContent = "";
+      this.state.textContent = ending;
+      buttons.forEach((control) => (control.disabled = false));
       this.draw();
     }
   }

@@ -57,6 +57,8 @@ let values = start.answer.values;
 let rest = 0;
 let current: { control: AbortController; since: number } | null = null;
 let saved = 0;
+// Counts the cases that were loaded: an edit of one is none of another.
+let loaded = 0;
 // What waits for the next whole answer.
 const waiting: (() => void)[] = [];
 
@@ -91,13 +93,15 @@ async function answerAll(): Promise<void> {
     const control = new AbortController();
     const since = performance.now();
     current = { control, since };
-    const [sent, asked] = [text.value, model];
+    const [sent, asked, own] = [text.value, model, loaded];
     const busy = window.setTimeout(() => wait(control), PATIENCE_MS);
     try {
       const seen = [...views].filter(([, view]) => view.inView).map(([chart]) => chart);
       const body = { name, case: sent, edits: [...edits.values()], model, ...(moving ? { in_view: seen } : {}) };
       const answer = await post<Answer>("/api/answer", body, control.signal);
       if (text.value === sent) text.value = answer.case;
+      // What the form changed goes into the text that was written meanwhile.
+      else if (own === loaded) keep(edits);
       show(answer, since, moving);
       // A model that was chosen meanwhile is computed next.
       if (model !== asked) models.value = model ?? "";
@@ -105,13 +109,16 @@ async function answerAll(): Promise<void> {
     } catch (error) {
       if (control.signal.aborted) {
         // What the form had changed is not lost with the run that was ended.
+        if (own !== loaded) continue;
         if (!keep(edits)) get("status").textContent = "cancelled";
       } else if (error instanceof Refused) {
         const refused = error.body as { case?: string; values?: Answer["values"] };
         if (refused.case !== undefined && text.value === sent) text.value = refused.case;
         if (refused.values && Object.keys(refused.values).length) form.show(refused.values, model ?? answered, undefined, later());
-        if (error.problem === lost) unsent = edits;
+        if (error.problem === lost && own === loaded) unsent = edits;
         else past.add({ name, case: text.value, model });
+        // It may have begun with the answer to an earlier change.
+        refinement.stop();
         refuse(error.problem);
       } else {
         throw error;
@@ -165,8 +172,7 @@ function show(answer: Answer, since: number | null, draft: boolean): void {
   refinement.follow({ name, case: answer.case }, answer);
   for (const tell of followers) tell();
   downloads(answer);
-  clearTimeout(saved);
-  saved = window.setTimeout(() => void save(), 400);
+  saveSoon();
 }
 
 function showCharts(answer: Answer): void {
@@ -195,12 +201,19 @@ function place(box: HTMLElement, elements: HTMLElement[]): void {
 
 function refuse(problem: Problem): void {
   const box = get("problem");
-  box.replaceChildren(...explained(problem));
+  box.replaceChildren(...explained(problem), ...(problem === lost ? [button("Try again", () => ask())] : []));
   box.hidden = false;
   form.mark(problem.key);
   get("answer").classList.add("stale");
   get("status").textContent = "the results are those of the last valid case";
   sideBySide.stop();
+  saveSoon();
+}
+
+// What is being written is saved when it rests, a refused case too.
+function saveSoon(): void {
+  clearTimeout(saved);
+  saved = window.setTimeout(() => void save(), 400);
 }
 
 // Keeps the case as it stands in the address of the page.
@@ -254,6 +267,8 @@ function downloads(answer: Answer): void {
 }
 
 function load(state: { name: string; case: string; model: string | null }): void {
+  loaded++;
+  [pending, unsent] = [null, new Map()];
   name = state.name;
   model = state.model;
   text.value = state.case;
@@ -268,13 +283,15 @@ async function validate(): Promise<void> {
   const say = (words: string) => (get("status").textContent = words);
   try {
     const done = await follow<{ address: string }>("/api/validation", {}, control.signal, (fraction, words) =>
-      say(`validation: ${words}, ${Math.round(100 * fraction)} %`));
+      say(`validation: ${words || "published tests"}, ${Math.round(100 * fraction)} %`));
     say("");
+    // In place of the button: the report stays as long as the server.
     const link = make("a", { href: done.address, target: "_blank", rel: "noopener" }, "Open the validation report");
-    get("status").replaceChildren(link);
+    trigger.replaceWith(link);
     link.focus();
   } catch (error) {
-    if (error instanceof Refused) refuse(error.problem);
+    if (!(error instanceof Refused)) throw error;
+    say(`validation: ${error.problem.message}; ${error.problem.help}`);
   } finally {
     trigger.disabled = false;
   }
@@ -294,6 +311,8 @@ function build(): void {
     ask();
   });
   text.addEventListener("input", () => ask());
+  // Edits that the server has not got stand in the form alone.
+  addEventListener("beforeunload", (event) => unsent.size && event.preventDefault());
   get("to-studies").addEventListener("click", () => bring(get("studies-title")));
   get("validation").addEventListener("click", () => void validate());
   get("link").addEventListener("click", () => void copyLink());
@@ -302,12 +321,15 @@ function build(): void {
     onChange: (tell: () => void) => void followers.push(tell),
     hasMeasured: () => Object.keys(values).some((key) => /^(experiments|measured_curves)\./.test(key)),
     hasUncertainty: () => Object.keys(values).some((key) => key.startsWith("uncertainty.")),
-    insert: (example: string) => {
+    settled: () => idle,
+    insert: async (example: string, asked: string) => {
+      if (text.value !== asked) return false;
       text.value = example;
       get<HTMLDetailsElement>("text-box").open = true;
       text.scrollTop = text.scrollHeight;
       ask();
-      return new Promise<void>((done) => waiting.push(done));
+      await new Promise<void>((done) => waiting.push(done));
+      return true;
     },
     example: (wanted: string) => {
       const known = start.cases.find((one) => one.name === wanted);
@@ -320,8 +342,12 @@ function build(): void {
   addEventListener("beforeprint", () => [...views.values(), ...others].forEach((view) => view.settle()));
   onThemeChange(() => [...views.values(), ...others, refinement.impact].forEach((view) => view.draw()));
   addEventListener("hashchange", () => void fromFragment(location.hash).then((state) => state && load(state)));
-  document.addEventListener("keydown", (event) => {
-    if (event.key === "Escape") document.querySelectorAll<HTMLDetailsElement>("details.menu[open]").forEach((menu) => (menu.open = false));
+  const menu = get("downloads").closest("details") as HTMLDetailsElement;
+  const close = () => (menu.open = false);
+  document.addEventListener("keydown", (event) => event.key === "Escape" && close());
+  document.addEventListener("click", (event) => {
+    const at = event.target as Element;
+    if (!menu.contains(at) || at.closest("#downloads button")) close();
   });
 }
 

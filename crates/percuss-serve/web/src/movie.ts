@@ -20,15 +20,16 @@ export const videoType = (): [string, string] | null =>
 
 const pause = (time: number) => new Promise<void>((done) => setTimeout(done, time));
 
-export async function picture({ canvas }: Reel, name: string): Promise<void> {
+export async function picture({ canvas }: Reel, name: string): Promise<boolean> {
   const content = await new Promise<Blob | null>((done) => canvas.toBlob(done, "image/png"));
   if (content) download(`${name}.png`, content, "image/png");
+  return content !== null;
 }
 
-// Records all pictures at their speed, for as long as `report` says so.
-export async function video({ canvas, count, draw }: Reel, name: string, report: Report): Promise<void> {
+// Records all pictures at their speed, for as long as `report` says so. Whether there is a file, as of the other two.
+export async function video({ canvas, count, draw }: Reel, name: string, report: Report): Promise<boolean> {
   const kind = videoType();
-  if (!kind) return;
+  if (!kind) return false;
   draw(0);
   const stream = canvas.captureStream(RATE);
   const recorder = new MediaRecorder(stream, { mimeType: kind[0], videoBitsPerSecond: 8e6 });
@@ -49,11 +50,12 @@ export async function video({ canvas, count, draw }: Reel, name: string, report:
   stream.getTracks().forEach((track) => track.stop());
   const type = kind[0].split(";")[0] ?? kind[0];
   if (wanted) download(`${name}.${kind[1]}`, new Blob(parts, { type }), type);
+  return wanted;
 }
 
-export async function gif({ canvas, count, draw }: Reel, name: string, report: Report): Promise<void> {
+export async function gif({ canvas, count, draw }: Reel, name: string, report: Report): Promise<boolean> {
   const context = canvas.getContext("2d", { willReadFrequently: true });
-  if (!context) return;
+  if (!context) return false;
   const encoder = GIFEncoder();
   const { width, height } = canvas;
   for (let index = 0; index < count; index++) {
@@ -62,9 +64,10 @@ export async function gif({ canvas, count, draw }: Reel, name: string, report: R
     const palette = quantize(data, 256);
     const delay = index + 1 === count ? LAST_MS : 1000 / RATE;
     encoder.writeFrame(applyPalette(data, palette), width, height, { palette, delay });
-    if (!report(index / count)) return;
+    if (!report(index / count)) return false;
     await pause(0);
   }
   encoder.finish();
   download(`${name}.gif`, encoder.bytes() as BlobPart, "image/gif");
+  return true;
 }

@@ -51,7 +51,9 @@ export function over(plot: uPlot, chart: Chart): void {
   ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
   ctx.clip();
   // Names of many marks stand below each other, for those that are close.
-  chart.marks.forEach((mark, i) => line(plot, chart, mark, variable("--soft"), chart.kind === "histogram" ? i : null));
+  const vertical = chart.marks.filter((mark) => mark.vertical);
+  const isCrowded = chart.kind === "histogram" || vertical.length > 1;
+  chart.marks.forEach((mark) => line(plot, chart, mark, variable("--soft"), mark.vertical && isCrowded ? vertical.indexOf(mark) : null));
   if (chart.kind === "lines") for (const series of chart.series) errorBars(plot, chart, series);
   ctx.restore();
 }

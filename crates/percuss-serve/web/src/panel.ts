@@ -13,8 +13,10 @@ export interface Page {
   onChange(tell: () => void): void;
   hasUncertainty(): boolean;
   hasMeasured(): boolean;
-  // Another text of the case; done when its answer is shown.
-  insert(text: string): Promise<void>;
+  // Done when no answer is computed any more.
+  settled(): Promise<void>;
+  // Another text of the case in place of one; done when its answer is shown. False where the case has changed meanwhile.
+  insert(text: string, instead: string): Promise<boolean>;
   // Loads a ready case; done when its answer is shown.
   example(name: string): Promise<void>;
 }
@@ -27,6 +29,8 @@ export interface Kind {
   inputs?: HTMLElement[];
   below?: HTMLElement;
   body(): object;
+  // Whether it takes every model, whichever is chosen.
+  ofAllModels?: boolean;
   // The view of a chart takes part in what happens to all charts.
   show(done: unknown, view: (chart: Chart, files: Study["files"]) => ChartView): HTMLElement[];
   // Completes the case before the study; what it has added, in words.
@@ -57,20 +61,45 @@ export function labelled<T extends HTMLElement>(words: string, input: T): HTMLEl
 
 const unexpected = (error: unknown): Problem => ({ message: String(error), help: "", key: "", place: null });
 
+// A number among the settings of a study that it does not take, marked and under the cursor.
+function amiss(settings: HTMLElement): Problem | null {
+  let found: HTMLInputElement | null = null;
+  for (const input of settings.querySelectorAll<HTMLInputElement>("input[type=number]")) {
+    const isWrong = input.value === "" || !input.checkValidity();
+    input.removeAttribute("aria-invalid");
+    if (!isWrong || input.closest("[hidden]")) continue;
+    input.setAttribute("aria-invalid", "true");
+    found ??= input;
+  }
+  if (!found) return null;
+  found.focus();
+  const name = found.getAttribute("aria-label") ?? found.labels?.[0]?.textContent?.trim() ?? "number";
+  const kind = found.step === "1" ? "whole numbers" : "numbers";
+  const value = found.value === "" ? "no number" : found.value;
+  return { message: `${name}: ${value}`, help: `allowed: ${kind} from ${found.min} to ${found.max}`, key: "", place: null };
+}
+
 export function panel(kind: Kind, views: Views, page: Page): HTMLElement {
   const bar = make("progress", { max: "1", value: "0", "aria-label": `Progress: ${kind.title}` });
   const words = make("span", { class: "soft" });
   const result = make("div", { class: "result" });
   let control: AbortController | null = null;
-  // Case and model of the result.
+  // Case of the result, with the model where it is of one.
   let studied = "";
-  page.onChange(() => result.classList.toggle("stale", studied !== "" && studied !== JSON.stringify(page.request())));
+  let name = "";
+  const asked = () => JSON.stringify({ ...page.request(), ...(kind.ofAllModels ? { model: null } : {}) });
+  page.onChange(() => result.classList.toggle("stale", studied !== "" && studied !== asked()));
   const start = button(kind.title, () => void run());
   const cancel = button("Cancel", () => control?.abort());
   const running = make("span", { class: "running", role: "status" }, bar, words, cancel);
   running.hidden = true;
 
   async function run(): Promise<void> {
+    const wrong = amiss(head);
+    if (wrong) {
+      result.replaceChildren(make("div", { class: "problem", role: "alert" }, ...explained(wrong)));
+      return;
+    }
     control?.abort();
     const own = (control = new AbortController());
     running.hidden = false;
@@ -81,7 +110,8 @@ export function panel(kind: Kind, views: Views, page: Page): HTMLElement {
     result.classList.remove("stale");
     try {
       const added = await kind.prepare?.();
-      studied = JSON.stringify(page.request());
+      studied = asked();
+      name = page.request().name;
       const note = added ? [make("p", { class: "note", role: "status" }, added)] : [];
       const done = await follow<Study>(kind.path, kind.body(), own.signal, (fraction, said) => {
         bar.value = fraction;
@@ -115,7 +145,7 @@ export function panel(kind: Kind, views: Views, page: Page): HTMLElement {
   }
 
   // Files that name each other keep their names; others are told apart by the case.
-  const save = (name: string, text: string) => download(name.endsWith(".toml") ? name : `${page.request().name || "case"}-${name}`, text, "text/plain");
+  const save = (file: string, text: string) => download(file.endsWith(".toml") ? file : `${name || "case"}-${file}`, text, "text/plain");
 
   function figureButton(chart: { name: string; title: string }, files: Study["files"]): HTMLElement[] {
     const name = `${chart.name}.svg`;

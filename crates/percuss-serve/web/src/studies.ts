@@ -11,7 +11,7 @@ import type { Answer, Convergence, Limits } from "./types";
 import { uncertainty } from "./uncertain";
 
 function speed(label: string, value: number): [HTMLElement, HTMLInputElement] {
-  const input = make("input", { type: "number", min: "0", max: "10000", value: String(value) });
+  const input = make("input", { type: "number", min: "0", max: "10000", step: "any", value: String(value) });
   return [make("label", {}, `${label} `, input), input];
 }
 
@@ -24,6 +24,7 @@ export function studies(page: Page, numbers: Numbers, views: Views): HTMLElement
       title: "Models versus velocity",
       about: "all models at 25 impact velocities",
       path: "/api/study/compare",
+      ofAllModels: true,
       inputs: [from, to, make("span", {}, "m/s")],
       body: () => ({ ...asked(), model: null, speeds: [Number(fromInput.value), Number(toInput.value), 25] }),
       show: () => [],
@@ -39,6 +40,7 @@ export function studies(page: Page, numbers: Numbers, views: Views): HTMLElement
       title: "Ballistic limit",
       about: "impact velocity above which the target is perforated, with all applicable models",
       path: "/api/study/limit",
+      ofAllModels: true,
       body: () => ({ ...asked(), model: null }),
       show: (done) => limits(done as Limits),
       example: {

@@ -66,9 +66,14 @@ export function limits(study: Limits): HTMLElement[] {
   const lines = found.map((limit) => [
     chosen.has(limit.model) ? `${limit.model} ★` : limit.model,
     figure(limit.ballistic_limit_m_s),
-    limit.bracket ? `${significant(limit.bracket.stopped_m_s)} … ${significant(limit.bracket.perforated_m_s)}` : "–",
+    limit.bracket ? `${significant(limit.bracket.stopped_m_s, 5)} … ${significant(limit.bracket.perforated_m_s, 5)}` : "–",
     String(limit.runs),
   ]);
+  if (axisymmetric?.ballistic_limit_m_s != null) {
+    const error = axisymmetric.uncertainty_m_s;
+    const value = significant(axisymmetric.ballistic_limit_m_s);
+    lines.push([chosen.has("axi") ? "axi ★" : "axi", error == null ? value : `${value} ± ${significant(error, 2)}`, "–", String(axisymmetric.meshes.reduce((sum, mesh) => sum + mesh.runs, 0))]);
+  }
   if (study.measured !== null) lines.push(["experiment", figure(study.measured), "", ""]);
   const said: HTMLElement[] = [];
   if (study.freed) {

@@ -152,7 +152,13 @@ export interface Limits extends Study {
     recommended: { model: string; because: string }[];
     note: string | null;
     range: { lowest_m_s: number; highest_m_s: number; models: number } | null;
-    axisymmetric: { reason: string | null; warnings: string[] } | null;
+    axisymmetric: {
+      reason: string | null;
+      warnings: string[];
+      ballistic_limit_m_s: number | null;
+      uncertainty_m_s: number | null;
+      meshes: { runs: number }[];
+    } | null;
     results: {
       model: string;
       outcome: string;

@@ -86,7 +86,11 @@ function influence(done: Spread, place: number): HTMLElement {
 // Gives a case without uncertain parameters an example of them.
 async function prepare(page: Page): Promise<string | null> {
   if (page.hasUncertainty()) return null;
-  const done = await post<{ case: string }>("/api/uncertainty-example", page.request());
-  await page.insert(done.case);
+  for (let isIn = false; !isIn;) {
+    await page.settled();
+    const asked = page.request();
+    const done = await post<{ case: string }>("/api/uncertainty-example", asked);
+    isIn = await page.insert(done.case, asked.case);
+  }
   return "The case had no uncertain parameters: an example is now at the end of its text. Replace the assumed distributions by your own, then press Uncertainty. Undo removes it.";
 }

@@ -381,6 +381,57 @@ test("what is typed while the server does not respond is not lost", async () => 
   await page.context().close();
 });
 
+test("a server that is back answers at the press of a button", async () => {
+  const page = await open();
+  complaints.length = 0;
+  await page.route("**/api/answer", (route) => route.abort());
+  await page.locator("#field-projectile-impact_velocity").fill("450");
+  await page.locator("#problem").getByText("the server does not respond").waitFor();
+  await page.unroute("**/api/answer");
+  await page.locator("#problem").getByRole("button", { name: "Try again" }).click();
+  await answered(page, 2);
+  assert.match(await page.locator("#text").inputValue(), /impact_velocity = "450 m\/s"/);
+  assert.ok(complaints.splice(0).every((words) => words.includes("ERR_FAILED")));
+  await page.context().close();
+});
+
+test("a refused case outlives a reload, and pales all that is of another", async () => {
+  const page = await open();
+  const text = `${await page.locator("#text").inputValue()}\n# my notes\n[experiments`;
+  const address = page.url();
+  await page.locator("#text").fill(text);
+  await page.locator("#problem").waitFor();
+  for (const part of ["#numbers", "#impact", 'figure[data-chart="depth-time"]', "#comparison-body"]) {
+    const opacity = await page.locator(part).evaluate((element) => Number(getComputedStyle(element).opacity));
+    assert.ok(opacity < 0.5, `${part}: ${opacity}`);
+  }
+  await page.waitForFunction((before) => location.href !== before, address);
+  await page.reload();
+  await page.locator("#problem").waitFor();
+  assert.equal(await page.locator("#text").inputValue(), text);
+  await page.context().close();
+});
+
+test("the menu of files lies above the rest, and closes", async () => {
+  const page = await open("/", { viewport: { width: 800, height: 900 } });
+  await page.locator("#refined .row .number").first().waitFor({ timeout: 120_000 });
+  const menu = page.locator("details.menu");
+  await menu.locator("summary").click();
+  for (const file of await menu.locator("button").all()) {
+    const isOnTop = await file.evaluate((element) => {
+      const { left, top, width, height } = element.getBoundingClientRect();
+      return element.contains(document.elementFromPoint(left + width / 2, top + height / 2));
+    });
+    assert.ok(isOnTop, await file.innerText());
+  }
+  await Promise.all([page.waitForEvent("download"), menu.getByText("scenario.toml").click()]);
+  assert.equal(await menu.getAttribute("open"), null);
+  await menu.locator("summary").click();
+  await page.locator("#status").click();
+  assert.equal(await menu.getAttribute("open"), null);
+  await page.context().close();
+});
+
 test("the browser had nothing to complain about", () => {
   assert.deepEqual(complaints, []);
 });

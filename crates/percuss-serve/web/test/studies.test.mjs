@@ -41,6 +41,37 @@ test("studies come to an end with tables, curves and files", async () => {
   await page.context().close();
 });
 
+test("a study names its files after its case, and says which number it does not take", async () => {
+  const page = await open();
+  await page.locator("#cases").selectOption("weldox-460e-12mm-blunt");
+  await answered(page, 2);
+  const of = await study(page, "Ballistic limit");
+  await of.getByRole("button", { name: "Ballistic limit", exact: true }).click();
+  await of.getByText("Range of").waitFor({ timeout: 180_000 });
+  assert.match(await of.locator("tbody").first().innerText(), /axi/);
+  await page.locator("#cases").selectOption("paper-table1");
+  await answered(page, 3);
+  const [file] = await Promise.all([page.waitForEvent("download"), of.getByRole("button", { name: "limit.json" }).click()]);
+  assert.equal(file.suggestedFilename(), "weldox-460e-12mm-blunt-limit.json");
+
+  const uncertainty = await study(page, "Uncertainty");
+  const seed = uncertainty.getByLabel("seed");
+  await seed.fill("-3");
+  await uncertainty.getByRole("button", { name: "Uncertainty", exact: true }).click();
+  const problem = uncertainty.locator(".problem");
+  assert.match(await problem.innerText(), /seed: -3\s+allowed: whole numbers from 0 to/);
+  assert.equal(await seed.getAttribute("aria-invalid"), "true");
+  // A study whose server goes away says so.
+  await seed.fill("3");
+  await page.route("**/api/study/uncertainty", (route) => route.abort());
+  await page.route("**/api/uncertainty-example", (route) => route.abort());
+  complaints.length = 0;
+  await uncertainty.getByRole("button", { name: "Uncertainty", exact: true }).click();
+  await uncertainty.getByText("the server does not respond").waitFor();
+  assert.ok(complaints.splice(0).every((words) => words.includes("ERR_FAILED")));
+  await page.context().close();
+});
+
 // What an analysis of the page came to.
 const analysis = async (page, done) => {
   const of = await study(page, "Uncertainty");

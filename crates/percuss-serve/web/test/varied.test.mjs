@@ -153,6 +153,28 @@ test("a case without measured values is given an example of them", async () => {
   await page.context().close();
 });
 
+test("a change while the example is on its way is not lost", async () => {
+  const page = await shows(coarse);
+  const of = await study(page, "Calibrate");
+  let asked = 0;
+  await page.route("**/api/calibration-example", async (route) => {
+    asked++;
+    await new Promise((done) => setTimeout(done, 1000));
+    await route.continue();
+  });
+  await start(of, "Calibrate");
+  await page.locator("#field-projectile-impact_velocity").fill("260");
+  await of.getByText("Measured and predicted values").waitFor({ timeout: 180_000 });
+  assert.match(await page.locator("#text").inputValue(), /impact_velocity = "260 m\/s"[^]*\[\[experiments\]\]/);
+  assert.equal(asked, 2);
+  // A word that is not there is no reason to take another case.
+  await of.getByLabel("hold out", { exact: true }).fill("nobody");
+  await start(of, "Calibrate");
+  await of.locator(".problem").getByText("no measured value comes from `nobody`").waitFor({ timeout: 60_000 });
+  assert.equal(await of.getByRole("button", { name: /^Use the example/ }).count(), 0);
+  await page.context().close();
+});
+
 test("the browser had nothing to complain about", () => {
   assert.deepEqual(complaints, []);
 });

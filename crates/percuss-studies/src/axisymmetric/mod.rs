@@ -31,6 +31,7 @@ use serde::Serialize;
 
 use crate::{
     Error, Scenario,
+    jobs::Jobs,
     limit_choice::another_outcome,
     model::{self, Control, Model},
     outcome::{BandQuantity, Outcome, RunResult},
@@ -158,28 +159,16 @@ pub fn answer_with_frames(
 ) -> Result<AxisymmetricAnswer, Error> {
     let axi = model::model(MODEL)?;
     let costs: Vec<f64> = plan.cells.iter().map(|&n| seconds(scenario, n)).collect();
-    let whole: f64 = costs.iter().sum();
-    let done = Mutex::new((vec![0.0; costs.len()], progress, ControlFlow::Continue(())));
-    let report = |mesh: usize, fraction: f64| {
-        // A caller whose callback has panicked gets its panic anyway.
-        let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
-        let (fractions, progress, flow) = &mut *done;
-        fractions[mesh] = fraction.clamp(0.0, 1.0);
-        let sum: f64 = fractions.iter().zip(&costs).map(|(f, cost)| f * cost).sum();
-        // A caller who has stopped the runs is not asked again for the other meshes.
-        if flow.is_continue() {
-            *flow = progress(sum / whole);
-        }
-        *flow
-    };
+    let meshes = costs.len();
+    let jobs = Jobs::new(costs, progress);
     let frames = Mutex::new(frames);
     // The finest mesh takes longest and starts first.
-    let mut runs: Vec<Result<(MeshResult, RunResult), Error>> = (0..costs.len())
+    let mut runs: Vec<Result<(MeshResult, RunResult), Error>> = (0..meshes)
         .into_par_iter()
         .with_max_len(1)
         .rev()
         .map(|mesh| {
-            let mut watch = |now: model::Progress| report(mesh, now.fraction);
+            let mut watch = |now: model::Progress| jobs.report(mesh, now.fraction);
             let mut show = |frame: &Frame<'_>| {
                 let mut frames = frames.lock().unwrap_or_else(PoisonError::into_inner);
                 frames(frame);
@@ -189,7 +178,7 @@ pub fn answer_with_frames(
                 progress: Some(&mut watch),
                 ..Control::default()
             };
-            if mesh + 1 == costs.len() {
+            if mesh + 1 == meshes {
                 control.frames = Some(&mut show);
             }
             on_mesh(axi, scenario, plan.cells[mesh], &mut control)

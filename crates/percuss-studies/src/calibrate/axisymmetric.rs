@@ -10,10 +10,7 @@ mod tests;
 
 use std::{
     ops::ControlFlow,
-    sync::{
-        Mutex, PoisonError,
-        atomic::{AtomicUsize, Ordering},
-    },
+    sync::atomic::{AtomicUsize, Ordering},
 };
 
 use rayon::prelude::*;
@@ -28,8 +25,9 @@ use super::{
 use crate::{
     Error,
     axisymmetric::{MODEL, ReferenceMeshes, Request},
-    cost, model,
-    statistics::mean,
+    cost,
+    jobs::{Jobs, Progress},
+    model,
 };
 
 /// Rounds after which the correction is left as it is, with a warning.
@@ -154,21 +152,24 @@ impl Problem {
         count: &AtomicUsize,
         report: &(dyn Fn(f64) + Sync),
     ) -> Vec<Result<Correction, Silent>> {
-        let done = Mutex::new(vec![0.0; self.observations.len()]);
-        let jobs = self.observations.par_iter().with_max_len(1).enumerate();
-        jobs.map(|(place, observation)| {
-            let progress = |fraction: f64| {
-                // A caller whose callback has panicked gets its panic anyway.
-                let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
-                done[place] = fraction;
-                report(mean(&done));
-            };
-            count.fetch_add(1, Ordering::Relaxed);
-            let found = self.correction_of(observation, values, request, &progress);
-            progress(1.0);
-            found
-        })
-        .collect()
+        let mut progress = |part: f64| {
+            report(part);
+            match self.stop.load(Ordering::Relaxed) {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        };
+        let jobs = Jobs::new(vec![1.0; self.observations.len()], &mut progress);
+        let observations = self.observations.par_iter().with_max_len(1).enumerate();
+        observations
+            .map(|(place, observation)| {
+                let mut progress = |fraction: f64| jobs.report(place, fraction);
+                count.fetch_add(1, Ordering::Relaxed);
+                let found = self.correction_of(observation, values, request, &mut progress);
+                let _ = progress(1.0);
+                found
+            })
+            .collect()
     }
 
     fn correction_of(
@@ -176,26 +177,19 @@ impl Problem {
         observation: &Observation,
         values: &[f64],
         request: Request,
-        report: &(dyn Fn(f64) + Sync),
+        progress: &mut Progress<'_>,
     ) -> Result<Correction, Silent> {
         let scenario = observation
             .scenario(&self.fitted, values)
             .map_err(Silent::Here)?;
         let model = self.compute(&scenario, observation.quantity)?;
-        let mut progress = |fraction: f64| {
-            report(fraction);
-            match self.stop.load(Ordering::Relaxed) {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
-            }
-        };
         Correction::at(
             &scenario,
             observation.quantity,
             model,
             request,
             observation.correction.as_ref(),
-            &mut progress,
+            progress,
         )
     }
 

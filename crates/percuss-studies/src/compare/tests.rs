@@ -11,7 +11,7 @@ use crate::{
     material::MaterialClass,
     model::{self, Control, Model},
     outcome::{BandQuantity, Outcome, RunResult, Termination},
-    regime::{ProjectileRegime, TargetKind},
+    regime::{ProjectileRegime, Regime, TargetKind},
     validity::{FirstChoice, Measure, NoseKind, Outside, Range, ValidityDomain},
 };
 
@@ -324,6 +324,20 @@ fn a_neighbouring_regime_is_named() {
         note.starts_with("no first choice for deforming projectiles"),
         "{note}"
     );
+    // For a rod that erodes the model of a rigid one is no stand-in.
+    let text = "projectile = { material = 'm', length = '50 mm', diameter = '10 mm', impact_velocity = '300 m/s' }\n\
+                target = { material = 't', thickness = 'semi-infinite' }\n\
+                [materials.m]\nname = 'm'\ndensity = '7850 kg/m3'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\n\
+                strength.perfectly_plastic.flow_stress = '1000 MPa'\n\
+                [materials.t]\nname = 't'\ndensity = '2700 kg/m3'\nyoungs_modulus = '70 GPa'\npoissons_ratio = 0.33\n\
+                strength.perfectly_plastic.flow_stress = '300 MPa'";
+    let eroding = case::load_str("eroding", text).unwrap();
+    let regime = Regime::of(&eroding);
+    let stress_is_close = (ProjectileRegime::Eroding, Some(ProjectileRegime::Rigid));
+    assert_eq!((regime.projectile, regime.neighbour), stress_is_close);
+    let models: [&dyn Model; 2] = [&rigid, &soft];
+    let comparison = compare(&models, None, &eroding, &[300.0], &mut Observer::default()).unwrap();
+    assert!(comparison.recommended[0].models.is_empty());
     // Outside its range nothing is recommended, whether there is another one or not.
     const LONG: &[Range] = &[Range {
         measure: Measure::LengthToDiameter,

@@ -6,10 +6,7 @@
 //! - the variance is `b² var(x) + var(r)`, with a jackknife error;
 //! - percentiles are those of `a + b x + r`, of every draw with every residual.
 
-use std::{
-    ops::ControlFlow,
-    sync::{Mutex, PoisonError},
-};
+use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -24,6 +21,7 @@ use crate::{
     axisymmetric::{AxisymmetricAnswer, ReferenceMeshes, Request, main_number},
     bisection::bisect,
     cost,
+    jobs::Jobs,
     statistics::{mean, sorted, variance},
     summary::ResultNumber,
     sweep::SweepRun,
@@ -101,14 +99,7 @@ pub fn correct(
             number.label
         )));
     }
-    let done = Mutex::new((vec![0.0; draws.len()], progress));
-    let report = |place: usize, fraction: f64| {
-        // A caller whose callback has panicked gets its panic anyway.
-        let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
-        let (fractions, progress) = &mut *done;
-        fractions[place] = fraction.clamp(0.0, 1.0);
-        progress(mean(fractions))
-    };
+    let jobs = Jobs::new(vec![1.0; draws.len()], progress);
     let memory = Request::default().memory(&study.scenario);
     let answers: Vec<Result<AxisymmetricAnswer, Error>> = cost::within_memory(memory, || {
         draws
@@ -116,8 +107,8 @@ pub fn correct(
             .with_max_len(1)
             .enumerate()
             .map(|(place, (_, draw))| {
-                let answer = answer_of(study, draw, &mut |fraction| report(place, fraction))?;
-                let _ = report(place, 1.0);
+                let answer = answer_of(study, draw, &mut |fraction| jobs.report(place, fraction))?;
+                let _ = jobs.report(place, 1.0);
                 Ok(answer)
             })
             .collect()

@@ -72,10 +72,10 @@ const RANGES_UNDER_A_NOSE: &[Range] = &[
     },
     Range {
         measure: Measure::ThicknessToDiameter,
-        min: 0.5,
+        min: 0.6,
         max: 2.0,
         outside: Outside::Warning,
-        because: "a thinner plate stretches under a round or pointed nose until it tears, which is left out: its limit is too high",
+        because: "a thinner plate stretches under a round or pointed nose until it tears, which is left out: its limit is too high, and may fall with thickness",
     },
 ];
 

@@ -12,7 +12,7 @@ const PANELS: u32 = 400;
 
 impl Rods {
     /// Part of the length that is left when the tail has slowed from one speed to another [m/s] while the rod erodes.
-    pub fn length_left(&self, from: f64, to: f64) -> f64 {
+    fn length_left(&self, from: f64, to: f64) -> f64 {
         (self.projectile_density / self.projectile_strength
             * (self.primitive(to) - self.primitive(from) + self.logarithm(from, to)))
         .exp()
@@ -37,75 +37,70 @@ impl Rods {
 
     /// Depth that the rod makes while its tail slows from one speed to another [m/s], over its length at the first of them:
     /// `(ρ_p/Y) ∫ U L/L₀ dV`.
-    pub fn eroding_depth(&self, from: f64, to: f64) -> f64 {
+    fn eroding_depth(&self, from: f64, to: f64) -> f64 {
         let rate = |speed: f64| self.penetration_speed(speed) * self.length_left(from, speed);
         self.projectile_density / self.projectile_strength * integral(to, from, PANELS, rate)
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The integration in time and the implicit solution share only the speed of penetration.
-    #[test]
-    fn the_integration_in_time_meets_the_implicit_solution() {
-        let mut worst: f64 = 0.0;
-        for densities in [
-            (17600.0, 7850.0),
-            (7850.0, 7850.0),
-            (7850.0, 7849.999),
-            (8960.0, 2700.0),
-            (2700.0, 7850.0),
-        ] {
-            for (y, r) in [(1e9, 5e9), (0.5e9, 1e9), (5e9, 1.2e9), (2e9, 2e9)] {
-                let rods = Rods {
-                    projectile_density: densities.0,
-                    target_density: densities.1,
-                    projectile_strength: y,
-                    target_resistance: r,
-                };
-                let threshold = rods.threshold();
-                for speed in [1000.0, 1500.0, 2000.0, 3000.0] {
-                    if speed <= threshold {
-                        continue;
-                    }
-                    let stop = rods.penetrate(speed, 0.2).unwrap();
-                    let left = 0.2 * rods.length_left(speed, threshold);
-                    let mut depth = 0.2 * rods.eroding_depth(speed, threshold);
-                    let mut length = left;
-                    if y > r {
-                        depth += rods.rigid_depth(threshold, left);
-                    } else {
-                        length *= (-(r - y) / y).exp();
-                    }
-                    worst = worst.max((stop.depth / depth - 1.0).abs());
-                    if length > 1e-6 * 0.2 {
-                        worst = worst.max((stop.length / length - 1.0).abs());
-                    }
+/// The integration in time and the implicit solution share only the speed of penetration.
+#[test]
+fn the_integration_in_time_meets_the_implicit_solution() {
+    let mut worst: f64 = 0.0;
+    for densities in [
+        (17600.0, 7850.0),
+        (7850.0, 7850.0),
+        (7850.0, 7849.999),
+        (8960.0, 2700.0),
+        (2700.0, 7850.0),
+    ] {
+        for (y, r) in [(1e9, 5e9), (0.5e9, 1e9), (5e9, 1.2e9), (2e9, 2e9)] {
+            let rods = Rods {
+                projectile_density: densities.0,
+                target_density: densities.1,
+                projectile_strength: y,
+                target_resistance: r,
+            };
+            let threshold = rods.threshold();
+            for speed in [1000.0, 1500.0, 2000.0, 3000.0] {
+                if speed <= threshold {
+                    continue;
+                }
+                let stop = rods.penetrate(speed, 0.2).unwrap();
+                let left = 0.2 * rods.length_left(speed, threshold);
+                let mut depth = 0.2 * rods.eroding_depth(speed, threshold);
+                let mut length = left;
+                if y > r {
+                    depth += rods.rigid_depth(threshold, left);
+                } else {
+                    length *= (-(r - y) / y).exp();
+                }
+                worst = worst.max((stop.depth / depth - 1.0).abs());
+                if length > 1e-6 * 0.2 {
+                    worst = worst.max((stop.length / length - 1.0).abs());
                 }
             }
         }
-        println!("largest difference: {worst:.1e}");
-        assert!(worst < 1e-8, "{worst:e}");
     }
+    println!("largest difference: {worst:.1e}");
+    assert!(worst < 1e-8, "{worst:e}");
+}
 
-    #[test]
-    fn the_rewritten_primitive_is_the_textbook_one() {
-        let rods = Rods {
-            projectile_density: 17600.0,
-            target_density: 7850.0,
-            projectile_strength: 1.5e9,
-            target_resistance: 5e9,
-        };
-        let ratio: f64 = (7850.0_f64 / 17600.0).sqrt();
-        let difference = 1.0 - ratio * ratio;
-        let a = 2.0 * 3.5e9 * difference / 7850.0;
-        let textbook = |v: f64| {
-            let root = (v * v + a).sqrt();
-            ratio / difference * 0.5 * (v * root + a * (v + root).ln() - ratio * v * v)
-        };
-        let exact = (17600.0 / 1.5e9 * (textbook(1000.0) - textbook(2000.0))).exp();
-        assert!((rods.length_left(2000.0, 1000.0) / exact - 1.0).abs() < 1e-12);
-    }
+#[test]
+fn the_rewritten_primitive_is_the_textbook_one() {
+    let rods = Rods {
+        projectile_density: 17600.0,
+        target_density: 7850.0,
+        projectile_strength: 1.5e9,
+        target_resistance: 5e9,
+    };
+    let ratio: f64 = (7850.0_f64 / 17600.0).sqrt();
+    let difference = 1.0 - ratio * ratio;
+    let a = 2.0 * 3.5e9 * difference / 7850.0;
+    let textbook = |v: f64| {
+        let root = (v * v + a).sqrt();
+        ratio / difference * 0.5 * (v * root + a * (v + root).ln() - ratio * v * v)
+    };
+    let exact = (17600.0 / 1.5e9 * (textbook(1000.0) - textbook(2000.0))).exp();
+    assert!((rods.length_left(2000.0, 1000.0) / exact - 1.0).abs() < 1e-12);
 }

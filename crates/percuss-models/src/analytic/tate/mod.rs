@@ -1,6 +1,7 @@
 //! Model `tate`: the long rod of Alekseevskii and Tate, eroding, rigid or stopped at the face.
 
 mod equations;
+#[cfg(test)]
 mod exact;
 
 use std::borrow::Cow;
@@ -27,13 +28,7 @@ pub struct Tate;
 
 /// Range of length to diameter of a long rod, and of speeds, shared by the models of eroding rods.
 pub(super) const LONG_ROD: &[Range] = &[
-    Range {
-        measure: Measure::FlatRodLengthToDiameter,
-        min: 3.0,
-        max: f64::INFINITY,
-        outside: Outside::NotApplicable,
-        because: "its steady flow needs a rod that is long against the tip",
-    },
+    Range::STEADY_FLOW,
     Range {
         measure: Measure::FlatRodLengthToDiameter,
         min: 10.0,

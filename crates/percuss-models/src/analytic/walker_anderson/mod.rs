@@ -38,13 +38,9 @@ fn crater_ratio(speed: f64) -> f64 {
 
 /// Bulk sound speed [m/s] and slope of a material, and whether they had to be estimated.
 fn shock(material: &Material) -> (f64, f64, bool) {
-    match &material.equation_of_state {
-        Some(state) => (state.sound_speed.si(), state.slope, false),
-        None => {
-            let sound_speed = (material.bulk_modulus() / material.density.si()).sqrt();
-            (sound_speed, TYPICAL_SLOPE, true)
-        }
-    }
+    let state = material.equation_of_state.as_ref();
+    let slope = state.map_or(TYPICAL_SLOPE, |state| state.slope);
+    (material.bulk_sound_speed(), slope, state.is_none())
 }
 
 impl WalkerAnderson {

@@ -10,8 +10,3 @@ pub use crate::material::{StateEquation, impedance_match};
 pub use column::{Boundary, CellState, Layer, Medium, PlanarGrid, Solid};
 
 pub(super) use run::{PlanarRun, cells, expected, not_applicable};
-
-use crate::options::{ArtificialViscosity, FdmOptions};
-
-/// Artificial viscosity of a planar impact when a case gives none.
-pub const DEFAULT_VISCOSITY: ArtificialViscosity = FdmOptions::PLANAR_VISCOSITY;

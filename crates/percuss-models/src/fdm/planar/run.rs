@@ -2,9 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{
-    DEFAULT_VISCOSITY, column::Medium, interface::InterfaceForce, law::PlanarLaw, results,
-};
+use super::{column::Medium, interface::InterfaceForce, law::PlanarLaw, results};
 use crate::{
     Error, Refusal, Scenario,
     error::NumericalError,
@@ -109,7 +107,7 @@ fn law(material: &Material, scenario: &Scenario) -> Option<PlanarLaw> {
     if let Some(strength) = options.spall_strength {
         medium.spall_strength = Some(strength.si());
     }
-    let viscosity = options.artificial_viscosity.unwrap_or(DEFAULT_VISCOSITY);
+    let viscosity = (options.artificial_viscosity).unwrap_or(FdmOptions::PLANAR_VISCOSITY);
     let heats = chain.adiabatic_heating();
     Some(PlanarLaw {
         heat_fraction: if heats { chain.heat_fraction() } else { 0.0 },

@@ -49,10 +49,7 @@ fn load_both_ways(metal: &str, viscosity: f64) {
          [fdm]\nprojectile_elements = 27\ntarget_elements = 5\n"
     );
     let scenario = case::load_str("rod", &text).unwrap_or_else(|error| panic!("{error}"));
-    let options = scenario
-        .options
-        .fdm
-        .with_defaults_of(&scenario.options.chain);
+    let options = scenario.options.fdm.of_rod(&scenario.options.chain);
     let mut grid = mesh::build(&scenario, &options);
     for law in &mut grid.bodies {
         law.viscosity = ArtificialViscosity {

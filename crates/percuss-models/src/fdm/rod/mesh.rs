@@ -6,7 +6,7 @@ use super::law::RodLaw;
 use crate::{
     fdm::grid::{BoundaryCondition, Grid, Slab},
     material::Material,
-    options::{ChainOptions, FdmOptions, constraint_factor},
+    options::{RodOptions, constraint_factor},
     problem::RearFaceCondition,
     scenario::{Scenario, TargetBody, modelled_thickness},
 };
@@ -16,7 +16,7 @@ fn law(
     material: &Material,
     area: f64,
     factor: f64,
-    options: &FdmOptions,
+    options: &RodOptions,
     scenario: &Scenario,
 ) -> RodLaw {
     let chain = &scenario.options.chain;
@@ -36,7 +36,7 @@ fn law(
         heating,
         start_temperature: material.room_temperature.si(),
         rate_effects: chain.rate_effects(),
-        viscosity: options.artificial_viscosity.unwrap_or_default(),
+        viscosity: options.artificial_viscosity,
     }
 }
 
@@ -52,14 +52,16 @@ fn slab(law: RodLaw, start: f64, length: f64, cells: usize) -> Slab<RodLaw> {
     }
 }
 
-pub(super) fn build(scenario: &Scenario, options: &FdmOptions) -> Grid<RodLaw> {
+pub(super) fn build(scenario: &Scenario, options: &RodOptions) -> Grid<RodLaw> {
     let rod = &scenario.projectile;
     let area = rod.mass / (rod.material.density.si() * rod.length);
     let projectile = law(&rod.material, area, 1.0, options, scenario);
-    let cells = options
-        .projectile_elements
-        .unwrap_or(ChainOptions::PROJECTILE_ELEMENTS) as usize;
-    let mut slabs = vec![slab(projectile, -rod.length, rod.length, cells)];
+    let mut slabs = vec![slab(
+        projectile,
+        -rod.length,
+        rod.length,
+        options.projectile_elements as usize,
+    )];
     slabs[0].velocity = scenario.impact_velocity;
     let mut end = BoundaryCondition::Free;
     let mut tip_pressure = 0.0;
@@ -71,28 +73,20 @@ pub(super) fn build(scenario: &Scenario, options: &FdmOptions) -> Grid<RodLaw> {
             ..
         } => {
             let area = PI * column_diameter * column_diameter / 4.0;
-            let factor = options
-                .constraint_factor
-                .unwrap_or_else(|| ChainOptions::default().constraint_factor());
-            let shear = options
-                .border_shear
-                .unwrap_or_else(|| ChainOptions::default().border_shear());
             let total = scenario.modelled_length();
-            let all = f64::from(
-                options
-                    .target_elements
-                    .unwrap_or(ChainOptions::TARGET_ELEMENTS),
-            );
+            let all = options.target_elements as f64;
             let mut start = 0.0;
             for plate in layers {
                 let material = &plate.material;
-                let factor = constraint_factor(factor, material, plate.start_temperature());
+                let temperature = plate.start_temperature();
+                let factor = constraint_factor(options.constraint_factor, material, temperature);
                 let thickness = modelled_thickness(plate, scenario);
                 let cells = ((all * thickness / total).round() as usize).max(1);
                 let law = law(material, area, factor, options, scenario);
                 let mut slab = slab(law, start, thickness, cells);
                 let flow_stress = material.strength.law().flow_stress_at_unit_strain(material);
-                slab.line_friction = shear * PI * column_diameter * flow_stress.unwrap_or(0.0);
+                slab.line_friction =
+                    options.border_shear * PI * column_diameter * flow_stress.unwrap_or(0.0);
                 slabs.push(slab);
                 start += thickness;
             }

@@ -3,7 +3,6 @@
 use super::run::Rod;
 use crate::{
     fdm::{audit::REST_FRACTION, warnings::of_materials},
-    options::ChainOptions,
     outcome::{Outcome, RunResult, Termination},
     scenario::TargetBody,
     solver::monitor::RunMonitor,
@@ -109,18 +108,9 @@ fn warnings(rod: &Rod<'_>, result: &RunResult) -> Vec<String> {
     if scenario.layers().is_empty() {
         return warnings;
     }
-    let cell = scenario.modelled_length()
-        / f64::from(
-            rod.options
-                .target_elements
-                .unwrap_or(ChainOptions::TARGET_ELEMENTS),
-        );
-    let shear = rod
-        .options
-        .border_shear
-        .unwrap_or_else(|| ChainOptions::default().border_shear());
+    let cell = scenario.modelled_length() / f64::from(rod.options.target_elements);
     let depth = result.depth_of_penetration.unwrap_or(0.0);
-    warnings.extend(border_shear_warning("fdm", shear));
+    warnings.extend(border_shear_warning("fdm", rod.options.border_shear));
     warnings.extend(column_mesh_warnings(scenario, depth, "cell", cell));
     warnings.extend(bodies.flatten());
     warnings

@@ -12,7 +12,7 @@ use crate::{
     },
     history::{PROFILE_ELEMENTS, Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
-    options::{FdmOptions, MAX_STEPS},
+    options::{FdmOptions, RodOptions},
     outcome::{Outcome, RunResult, Termination},
     solver::{
         Control,
@@ -34,7 +34,7 @@ const PARTED_FRACTION: f64 = 1e-4;
 #[derive(Debug)]
 pub(in crate::fdm) struct Rod<'a> {
     pub(super) scenario: &'a Scenario,
-    pub(super) options: FdmOptions,
+    pub(super) options: RodOptions,
     pub(super) grid: Grid<RodLaw>,
     courant: f64,
     limits: Limits,
@@ -140,7 +140,7 @@ impl<'a> Solver<'a> for Rod<'a> {
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
         (
-            options_of(scenario).courant,
+            scenario.options.fdm.courant,
             FdmOptions::default().courant(),
         )
     }
@@ -230,13 +230,11 @@ impl<'a> Solver<'a> for Rod<'a> {
 /// Courant number and limits of a run before it starts.
 pub(in crate::fdm) fn limits(scenario: &Scenario) -> (f64, Limits) {
     let options = options_of(scenario);
-    let max_steps = options.max_steps.unwrap_or(MAX_STEPS);
-    let limits = Limits::new(scenario, options.end_time, max_steps)
-        .or_at_rest(scenario, options.end_at_rest.unwrap_or(false));
-    (options.courant(), limits)
+    let limits = Limits::new(scenario, options.end_time, options.max_steps)
+        .or_at_rest(scenario, options.end_at_rest);
+    (options.courant, limits)
 }
 
-fn options_of(scenario: &Scenario) -> FdmOptions {
-    let chain = &scenario.options.chain;
-    scenario.options.fdm.with_defaults_of(chain)
+fn options_of(scenario: &Scenario) -> RodOptions {
+    scenario.options.fdm.of_rod(&scenario.options.chain)
 }

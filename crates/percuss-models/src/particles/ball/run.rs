@@ -13,22 +13,19 @@ use crate::{
     error::NumericalError,
     history::{ElementState, Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
-    options::ParticlesOptions,
     outcome::{Detail, Outcome, RunResult, Termination},
-    particles::results,
+    particles::{self, AUDIT, results},
     solver::{
         Control, Particle,
         archive::Archive,
         frames::{Bonds, Fields, Points},
         gauge::Gauge,
-        interface::{Audit, BalanceTolerance, Extremes, Retry, Solver},
+        interface::{Audit, Extremes, Solver},
         limits::Limits,
         monitor::{Clock, Probe, RunMonitor},
     },
 };
 
-/// Steps between two checks of the balances.
-const INTERVAL: u64 = 50;
 /// Points along the diameter of a ball in pictures.
 const POINTS: u32 = 30;
 /// Approach over the radius up to which a contact is small beside the ball, as Hertz's theory takes it.
@@ -85,15 +82,7 @@ impl Collision<'_> {
 
 impl<'a> Solver<'a> for Collision<'a> {
     const NAMES: (&'static str, &'static str) = ("particles", "hertz");
-    const AUDIT: Audit = Audit {
-        interval: INTERVAL,
-        report_interval: INTERVAL,
-        tolerance: BalanceTolerance {
-            energy: 1e-3,
-            momentum: 1e-9,
-        },
-        retry: Retry::OfBalance { smallest: 0.1 },
-    };
+    const AUDIT: Audit = AUDIT;
 
     fn build(scenario: &'a Scenario, courant: f64, _: &mut Control<'_>) -> Result<Self, Error> {
         let (time_step, _) = super::times(scenario, courant);
@@ -121,8 +110,7 @@ impl<'a> Solver<'a> for Collision<'a> {
     }
 
     fn courant(scenario: &Scenario) -> (Option<f64>, f64) {
-        let options = &scenario.options.particles;
-        (options.courant, ParticlesOptions::default().courant())
+        particles::courant(scenario)
     }
 
     fn limits(&self) -> Limits {

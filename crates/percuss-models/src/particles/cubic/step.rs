@@ -243,23 +243,32 @@ impl CubicBody {
     ///
     /// # Errors
     /// [`Error::Cancelled`].
-    pub(super) fn measured_frequency(&self, control: &mut Control<'_>) -> Result<f64, Error> {
-        let mut body = self.clone();
+    pub(super) fn measured_frequency(&mut self, control: &mut Control<'_>) -> Result<f64, Error> {
         control.ask()?;
-        body.softening = None;
+        // In place, and back again: a copy of the body would take as much memory as a run.
+        let (state, motion) = (self.state.clone(), self.motion.clone());
+        let (damage, softening) = (self.damage.clone(), self.softening.take());
+        let found = self.frequency_of_random_motion(control);
+        (self.state, self.motion) = (state, motion);
+        (self.damage, self.softening) = (damage, softening);
+        self.refresh();
+        found
+    }
+
+    fn frequency_of_random_motion(&mut self, control: &mut Control<'_>) -> Result<f64, Error> {
         let size = 1e-9 * self.lattice.side;
-        for layer in 0..body.layers.len() {
+        for layer in 0..self.layers.len() {
             for place in 0..self.grid.places() {
-                if body.layers[layer].mass[place] > 0.0 {
+                if self.layers[layer].mass[place] > 0.0 {
                     let index = 3 * (layer * self.grid.places() + place) as u64;
                     for axis in 0..3 {
                         let draw = unit(FREQUENCY_STREAM, index + axis as u64) - 0.5;
-                        body.motion[layer][axis][place] = draw;
+                        self.motion[layer][axis][place] = draw;
                     }
                 }
             }
         }
-        largest_frequency(&mut body, size, control)
+        largest_frequency(self, size, control)
     }
 
     /// Stress `[xx, yy, zz, yz, xz, xy]` of a particle [Pa], tension positive: the mean over its volume by the virial of its bonds.
