@@ -120,7 +120,7 @@ fn formulae_that_free_a_fixed_rear_face_say_so() {
     let assumes = |model: &str, nose: &str, velocity: f64, face: RearFaceCondition| {
         let limits =
             "recht_ipson.ballistic_limit = '100 m/s'\nlambert_jonas.ballistic_limit = '100 m/s'";
-        let mut scenario = scenario(nose, velocity, 5.0, METAL, limits);
+        let mut scenario = scenario(nose, velocity, 8.0, METAL, limits);
         let TargetBody::Layers { back_face, .. } = &mut scenario.target else {
             panic!("no plate");
         };
@@ -388,7 +388,7 @@ fn plates_that_tear_are_not_for_the_balance_of_power() {
     for nose in ["\"hemisphere\"", CONE, OGIVE] {
         let words = refusal("power_balance", &of(nose, 4.9));
         assert!(words.contains("stretches under a round"), "{words}");
-        for (thickness, is_warned) in [(5.0, true), (9.9, true), (10.0, false)] {
+        for (thickness, is_warned) in [(5.0, true), (11.9, true), (12.0, false)] {
             let warnings = run("power_balance", &of(nose, thickness)).warnings;
             let found = warnings.iter().any(|w| w.contains("its limit is too high"));
             assert_eq!(found, is_warned, "{nose} {thickness}: {warnings:?}");

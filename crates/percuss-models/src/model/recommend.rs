@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::{
     Scenario,
+    problem::Nose,
     regime::{ProjectileRegime, Regime},
     solver::Model,
 };
@@ -104,8 +105,9 @@ pub fn recommend(
         choices.retain(|choice| own.given.iter().all(|own| own.model != choice.model));
         (neighbour, choices)
     });
-    // A rigid rod goes much deeper than one that erodes: its model is no stand-in, only one to compare with.
-    let is_stand_in = !own.given.is_empty() || regime.projectile != ProjectileRegime::Eroding;
+    // Behind a flat face a rigid rod goes much deeper than one that erodes: its model is no stand-in, only one to compare with.
+    let erodes = regime.projectile == ProjectileRegime::Eroding;
+    let is_stand_in = !own.given.is_empty() || !erodes || scenario.projectile.nose != Nose::Flat;
     let neighbour = neighbour.filter(|(kind, choices)| {
         !choices.is_empty() && (is_stand_in || *kind != ProjectileRegime::Rigid)
     });

@@ -324,7 +324,7 @@ fn a_neighbouring_regime_is_named() {
         note.starts_with("no first choice for deforming projectiles"),
         "{note}"
     );
-    // For a rod that erodes the model of a rigid one is no stand-in.
+    // For a flat rod that erodes the model of a rigid one is no stand-in.
     let text = "projectile = { material = 'm', length = '50 mm', diameter = '10 mm', impact_velocity = '300 m/s' }\n\
                 target = { material = 't', thickness = 'semi-infinite' }\n\
                 [materials.m]\nname = 'm'\ndensity = '7850 kg/m3'\nyoungs_modulus = '200 GPa'\npoissons_ratio = 0.3\n\
