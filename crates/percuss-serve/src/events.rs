@@ -25,23 +25,18 @@ pub(crate) struct EventSender {
 
 impl EventSender {
     fn new(sender: Sender<Bytes>) -> Self {
-        let events = Self {
-            sender,
-            last: Mutex::default(),
-        };
-        events.progress(0.0, "");
-        events
+        let last = Mutex::new(progress_line(0.0, ""));
+        Self { sender, last }
     }
 
     /// Sends the progress, 0 to 1, and a short text.
     pub(crate) fn progress(&self, fraction: f64, words: &str) {
-        let line = json!({ "progress": { "fraction": fraction.clamp(0.0, 1.0), "words": words } });
-        let line = line_of(&line);
+        let line = progress_line(fraction, words);
         *self.last() = line.clone();
         let _ = self.sender.try_send(line);
     }
 
-    /// Sends the last progress again: that a client has gone is seen when something is sent to it.
+    /// Sends the last progress again, or that there is none: that a client has gone is seen when something is sent to it.
     pub(crate) fn repeat(&self) {
         let line = self.last().clone();
         let _ = self.sender.try_send(line);
@@ -56,6 +51,10 @@ impl EventSender {
         // What it guards is whole after every statement.
         self.last.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+fn progress_line(fraction: f64, words: &str) -> Bytes {
+    line_of(&json!({ "progress": { "fraction": fraction.clamp(0.0, 1.0), "words": words } }))
 }
 
 fn line_of(value: &Value) -> Bytes {

@@ -427,7 +427,7 @@ test("the menu of files lies above the rest, and closes", async () => {
   await Promise.all([page.waitForEvent("download"), menu.getByText("scenario.toml").click()]);
   assert.equal(await menu.getAttribute("open"), null);
   await menu.locator("summary").click();
-  await page.locator("#status").click();
+  await page.locator("header h1").click();
   assert.equal(await menu.getAttribute("open"), null);
   await page.context().close();
 });
