@@ -23,6 +23,12 @@ def content(path: Path) -> bytes:
     return re.sub(rb"kuva-clip-\d+", b"kuva-clip", path.read_bytes())
 
 
+def of_arguments(printed: str) -> str:
+    """What the program prints, about arguments of functions in place of options."""
+    text = printed.removesuffix("For more information, try '--help'.\n").rstrip()
+    return re.sub(r"'--([a-z-]+)[^']*'", lambda option: f"`{option[1].replace('-', '_')}`", text, count=1)
+
+
 Program = Callable[..., subprocess.CompletedProcess[str]]
 
 
