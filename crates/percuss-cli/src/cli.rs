@@ -47,7 +47,7 @@ Examples:
   percuss run --help                       explain one command
 
 Exit codes: 0 ok, 2 bad input, 3 numerical failure, 4 a file could not be read
-or written";
+or written, 130 stopped by the user";
 
 /// Examples, without the commands that this build leaves out.
 fn after_help() -> String {

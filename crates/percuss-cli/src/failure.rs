@@ -190,7 +190,9 @@ impl Failure {
                     "" if missing && ending.is_some_and(|ending| ending != "toml") => {
                         "give the path of a file that exists"
                     }
-                    "" if missing => "`percuss new NAME` writes a starter case",
+                    "" if missing => {
+                        "give the path of a file that exists; `percuss new NAME` writes a starter case"
+                    }
                     remedy => remedy,
                 };
                 message(&what, help)

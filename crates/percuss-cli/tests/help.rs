@@ -18,7 +18,14 @@ fn completions_and_manual_pages_are_written() {
             "{shell}"
         );
     }
-    assert!(ok(folder.path(), &["man"]).contains(".TH percuss 1"));
+    let page = ok(folder.path(), &["man"]);
+    assert!(page.contains(".TH percuss 1"));
+    // Commands can be copied: each has a line of its own, with hyphens.
+    let examples = ".SH EXAMPLES\n.nf\n  percuss new";
+    assert!(
+        page.contains(examples) && page.contains("\n.SH EXIT CODES\n0 ok"),
+        "{page}"
+    );
     let text = ok(folder.path(), &["man", "--out", "man/man1"]);
     for page in ["percuss.1", "percuss-run.1", "percuss-materials-show.1"] {
         assert!(text.contains(page), "{text}");

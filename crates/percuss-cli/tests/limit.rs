@@ -179,7 +179,7 @@ fn a_range_that_is_stopped_or_perforated_throughout_is_an_answer() {
         ],
     );
     assert!(
-        quiet.starts_with("model=plugging outcome=always_perforates ballistic_limit_m_s=none"),
+        quiet.starts_with("model=plugging outcome=always_perforates ballistic_limit_m_s=null"),
         "{quiet}"
     );
 }

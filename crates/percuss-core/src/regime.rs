@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    material::{Material, Strength, cavity_expansion_pressure, strength_factor},
+    material::{Material, Strength, cavity_expansion_pressure_at, strength_factor},
     problem::Nose,
     scenario::{Scenario, TargetBody},
     units::{Pressure, Velocity, significant},
@@ -162,7 +162,10 @@ impl Regime {
         let rod = &scenario.projectile;
         let target = TargetKind::of(scenario);
         let speed = scenario.impact_velocity;
-        let Some(strength) = rod.material.flow_stress(STRENGTH_STRAIN) else {
+        let Some(strength) = rod
+            .material
+            .flow_stress_at(STRENGTH_STRAIN, rod.start_temperature())
+        else {
             return Self {
                 projectile: ProjectileRegime::Rigid,
                 neighbour: None,
@@ -188,7 +191,7 @@ impl Regime {
             }
             TargetBody::Layers { layers, .. } => {
                 let front = &layers[0].material;
-                let resistance = target_resistance(front);
+                let resistance = target_resistance(front, layers[0].start_temperature());
                 let density = front.density.si();
                 let pressure = resistance.map_or(f64::INFINITY, |resistance| {
                     resistance + nose_factor(rod.nose) * density * speed * speed
@@ -315,14 +318,14 @@ fn rounded(value: f64) -> f64 {
 }
 
 /// Pressure that a target opposes to slow penetration [Pa]: of concrete `S f_c` \[forrestal1994\], of a metal the expansion of a
-/// spherical cavity; `None` for a law that never flows.
-fn target_resistance(material: &Material) -> Option<f64> {
+/// spherical cavity at its temperature [K]; `None` for a law that never flows.
+fn target_resistance(material: &Material, temperature: f64) -> Option<f64> {
     match &material.strength {
         Strength::Concrete(law) => {
             let strength = law.compressive_strength.si();
             Some(strength * strength_factor(strength))
         }
-        _ => cavity_expansion_pressure(material),
+        _ => cavity_expansion_pressure_at(material, temperature),
     }
 }
 

@@ -6,6 +6,7 @@ mod fixed_rear_face;
 mod lists;
 mod nose_kind;
 mod oblique;
+mod plastic_shock;
 mod pushed_column;
 mod range;
 mod temperature;
@@ -14,6 +15,7 @@ pub use first_choice::FirstChoice;
 pub use fitted_to::FittedTo;
 pub use fixed_rear_face::{THROUGH_FIXED_FACE, fixed_rear_face_warning, free_rear_face_assumed};
 pub use nose_kind::NoseKind;
+pub use plastic_shock::plastic_shock_warning;
 pub use pushed_column::{border_shear_warning, column_mesh_warnings, pushed_column_warning};
 pub use range::{Measure, Outside, Range};
 

@@ -1,11 +1,12 @@
 //! Figures along the axis of projectile and target.
 
-use percuss::history::{ElementState, History, Profile};
+use percuss::{
+    history::{ElementState, History, Profile},
+    units::significant,
+};
 
 use crate::{
-    Axis, HeatMap, LineChart, Mark, Series, Style,
-    caption::significant,
-    palette,
+    Axis, HeatMap, LineChart, Mark, Series, Style, palette,
     stress_grid::{GAP, StressGrid, reach, spacing},
 };
 
@@ -46,7 +47,10 @@ pub(crate) fn strain(history: &History, along: Along, caption: &str) -> Option<L
             Along::Space => "Equivalent plastic strain",
         }),
     )
-    .caption(format!("{caption}; at {} µs", significant(last.time * 1e6)));
+    .caption(format!(
+        "{caption}; at {} µs",
+        significant(last.time * 1e6, 4)
+    ));
     for body in bodies(first, last) {
         let [plastic, total] = body.colors;
         let name = &body.name;
@@ -90,7 +94,10 @@ pub(crate) fn temperature(history: &History, along: Along, caption: &str) -> Opt
         along.axis(),
         Axis::new("Temperature (K)"),
     )
-    .caption(format!("{caption}; at {} µs", significant(last.time * 1e6)));
+    .caption(format!(
+        "{caption}; at {} µs",
+        significant(last.time * 1e6, 4)
+    ));
     for body in &bodies {
         let points = body.points(|e| e.temperature);
         chart = chart.series(Series::new(&body.name, points).color(body.colors[0]));
@@ -145,7 +152,7 @@ pub(crate) fn shape(history: &History, caption: &str) -> Option<LineChart> {
     )
     .caption(format!(
         "{caption}; end at {} µs",
-        significant(last.time * 1e6)
+        significant(last.time * 1e6, 4)
     ))
     .series(Series::new("end", after))
     .series(

@@ -1,6 +1,9 @@
-//! Captions of figures: the case in one line, and numbers to four digits.
+//! Captions of figures: the case in one line.
 
-use percuss::{Scenario, scenario::TargetBody};
+use percuss::{Scenario, scenario::TargetBody, units::significant};
+
+/// Significant digits of a caption's numbers.
+const DIGITS: usize = 4;
 
 /// Case in one line: its title, or projectile and target with the impact velocity [m/s], where there is one.
 pub(crate) fn caption(scenario: &Scenario, speed: Option<f64>) -> String {
@@ -13,18 +16,18 @@ pub(crate) fn caption(scenario: &Scenario, speed: Option<f64>) -> String {
         TargetBody::ConstantPressure(pressure) => {
             format!(
                 "against a constant pressure of {} MPa",
-                significant(pressure * 1e-6)
+                significant(pressure * 1e-6, DIGITS)
             )
         }
         TargetBody::Layers { layers, .. } => {
             let name = |layer: &percuss::scenario::Plate| {
                 let gap = match layer.gap {
                     0.0 => String::new(),
-                    gap => format!("{} mm gap + ", significant(gap * 1e3)),
+                    gap => format!("{} mm gap + ", significant(gap * 1e3, DIGITS)),
                 };
                 match layer.thickness {
                     Some(thickness) => {
-                        let thickness = significant(thickness * 1e3);
+                        let thickness = significant(thickness * 1e3, DIGITS);
                         format!("{gap}{thickness} mm {}", layer.material_id)
                     }
                     None => format!("{gap}thick {}", layer.material_id),
@@ -36,12 +39,12 @@ pub(crate) fn caption(scenario: &Scenario, speed: Option<f64>) -> String {
     };
     format!(
         "{} mm × {} mm {}{} {target}",
-        significant(rod.length * 1e3),
-        significant(rod.diameter * 1e3),
+        significant(rod.length * 1e3, DIGITS),
+        significant(rod.diameter * 1e3, DIGITS),
         rod.material_id,
         speed.map_or_else(String::new, |speed| format!(
             " at {} m/s",
-            significant(speed)
+            significant(speed, DIGITS)
         )),
     )
 }
@@ -49,37 +52,4 @@ pub(crate) fn caption(scenario: &Scenario, speed: Option<f64>) -> String {
 /// Case in one line, then numbers.
 pub(crate) fn caption_with(scenario: &Scenario, numbers: &str) -> String {
     format!("{}; {numbers}", caption(scenario, None))
-}
-
-/// A number to four significant digits, without trailing zeros.
-pub(crate) fn significant(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return value.to_string();
-    }
-    let decimals = (3.0 - value.abs().log10().floor()).max(0.0) as usize;
-    let text = format!("{value:.decimals$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_keep_four_digits() {
-        for (value, text) in [
-            (12.74, "12.74"),
-            (230.0, "230"),
-            (0.0, "0"),
-            (12345.6, "12346"),
-            (0.001_234_56, "0.001235"),
-            (-25.000_001, "-25"),
-        ] {
-            assert_eq!(significant(value), text);
-        }
-    }
 }

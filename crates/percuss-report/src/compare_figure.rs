@@ -2,12 +2,12 @@
 
 use percuss::{
     Scenario, compare::Comparison, model::label, outcome::BandQuantity, summary::ResultRecord,
+    units::significant,
 };
 
 use crate::{
     Axis, Chart, Figure, LineChart, Mark, RowChart, Series, Style,
     caption::caption,
-    caption::significant,
     curve_figures::curve_charts,
     measured::versus_speed,
     names::{capitalized, with_unit},
@@ -162,7 +162,7 @@ fn rows(scenario: &Scenario, comparison: &Comparison, quantity: BandQuantity) ->
     let speed = comparison.velocities()[0];
     let at = match quantity {
         BandQuantity::BallisticLimit => String::new(),
-        _ => format!(" at {} m/s", significant(speed)),
+        _ => format!(" at {} m/s", significant(speed, 4)),
     };
     let any = |has: &dyn Fn(&ResultRecord) -> bool| comparison.results.iter().any(has);
     let bars = match (

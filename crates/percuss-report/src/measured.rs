@@ -1,8 +1,11 @@
 //! Measured final values: lines across a chart versus time, and marks in a chart versus impact velocity.
 
-use percuss::{Scenario, compare::ExperimentRecord, history::History, outcome::BandQuantity};
+use percuss::{
+    Scenario, compare::ExperimentRecord, history::History, outcome::BandQuantity,
+    units::significant,
+};
 
-use crate::{Series, Style, caption::significant, palette};
+use crate::{Series, Style, palette};
 
 /// Relative difference of impact speeds that are one.
 const SAME_SPEED: f64 = 1e-3;
@@ -21,10 +24,11 @@ pub(crate) fn lines(scenario: &Scenario, quantity: BandQuantity, history: &Histo
         .map(|measured| {
             let value = quantity.in_unit(measured.value);
             let error = measured.uncertainty.map(|error| quantity.in_unit(error));
-            let off = error.map_or_else(String::new, |error| format!(" ± {}", significant(error)));
+            let off =
+                error.map_or_else(String::new, |error| format!(" ± {}", significant(error, 4)));
             let name = format!(
                 "measured {}{off} {} ({})",
-                significant(value),
+                significant(value, 4),
                 quantity.unit(),
                 measured.sources.join(", ")
             );

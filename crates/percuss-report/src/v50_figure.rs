@@ -1,8 +1,11 @@
 //! Figure of partial and complete penetrations, with the probability of perforation and V50.
 
-use percuss::v50::{Estimate, Method, Test, V50, probability};
+use percuss::{
+    units::significant,
+    v50::{Estimate, Method, Test, V50, probability},
+};
 
-use crate::{Axis, Figure, LineChart, Mark, Series, Style, caption::significant, palette};
+use crate::{Axis, Figure, LineChart, Mark, Series, Style, palette};
 
 /// Points of a smooth curve.
 const POINTS: u32 = 200;
@@ -79,7 +82,7 @@ pub fn v50_figure(name: &str, tests: &[Test], v50: &V50) -> Figure {
 fn marks(mut chart: LineChart, entry: &Estimate, drawn_ends: &[f64]) -> LineChart {
     if let Some(value) = entry.v50_m_s {
         chart = chart.mark(Mark::vertical(
-            format!("V50 {} m/s", significant(value)),
+            format!("V50 {} m/s", significant(value, 4)),
             value,
         ));
     }
@@ -94,7 +97,7 @@ fn marks(mut chart: LineChart, entry: &Estimate, drawn_ends: &[f64]) -> LineChar
 /// The interval of V50 in words, where it is bounded.
 fn interval(entry: &Estimate) -> Option<String> {
     let (low, high) = (entry.low_m_s?, entry.high_m_s?);
-    let (low, high) = (significant(low), significant(high));
+    let (low, high) = (significant(low, 4), significant(high, 4));
     Some(format!("95 % interval {low} to {high} m/s"))
 }
 

@@ -220,3 +220,26 @@ fn brittle_targets_are_named_that_cannot_crack() {
     );
     assert!(!warnings.contains("stretching and thinning"), "{warnings}");
 }
+
+/// Particles have the mass of the body that they fill, whatever its nose.
+#[test]
+fn a_nose_has_its_own_mass_on_every_mesh() {
+    for nose in [
+        "'hemisphere'",
+        "{ cone = { angle = '20 deg' } }",
+        "{ cone = { angle = '60 deg' } }",
+        "{ ogive = { crh = 3.0 } }",
+    ] {
+        for cells in [2, 3, 8] {
+            let text = format!(
+                "projectile = {{ material = '4340', length = '30 mm', diameter = '10 mm', impact_velocity = '100 m/s', nose = {nose} }}\n\
+                 target = {{ material = '6061-t6', thickness = '20 mm' }}\n\
+                 axi = {{ cells_per_radius = {cells}, end_time = '0.1 us' }}"
+            );
+            let mass = run(&text).projectile_final_mass.unwrap();
+            let error = mass / scenario(&text).projectile.mass - 1.0;
+            println!("{nose} on {cells} cells: {error:e}");
+            assert!(error.abs() < 3e-4, "{nose} on {cells} cells: {error:e}");
+        }
+    }
+}

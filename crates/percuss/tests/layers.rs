@@ -206,3 +206,25 @@ fn a_run_goes_on_until_layers_have_met() {
         }
     }
 }
+
+/// A plug that has crossed a gap is not held by the next layer: a foil there takes no more than it would alone.
+#[test]
+fn border_shear_stays_with_its_layer() {
+    let velocity = |layers: &str| {
+        let text = format!(
+            "projectile = {{ material = '4340', length = '50 mm', diameter = '10 mm', impact_velocity = '400 m/s' }}\n\
+             target = {{ back_face = 'free', layers = [{layers}] }}\nchain.target_elements = 40"
+        );
+        run(&text).residual_velocity.unwrap()
+    };
+    let plate = "{ material = '2024-t3', thickness = '4 mm' }";
+    let behind = |thickness: &str| {
+        velocity(&format!(
+            "{plate}, {{ material = '2024-t3', thickness = '{thickness}', gap = '50 mm' }}"
+        ))
+    };
+    let (foil, thicker, two) = (behind("0.01 mm"), behind("0.1 mm"), behind("4 mm"));
+    println!("foil {foil}, 0.1 mm {thicker}, 4 mm {two}");
+    assert!((foil / thicker - 1.0).abs() < 2e-3, "{foil} {thicker}");
+    assert!(two < 0.95 * foil, "{two} {foil}");
+}

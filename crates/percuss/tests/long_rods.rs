@@ -159,7 +159,7 @@ fn a_rod_of_the_chain_has_short_elements_however_long_it_is() {
         result.depth_of_penetration.unwrap() / scenario.projectile.length
     };
     let warns = |(result, _): &(RunResult, percuss::Scenario)| {
-        let words = "one erodes at a time: raise `chain.projectile_elements` to 160";
+        let words = "which makes the depth too small: raise `chain.projectile_elements` to 160";
         result
             .warnings
             .iter()

@@ -114,6 +114,42 @@ fn a_weak_rod_erodes_above_the_speed_at_which_it_penetrates() {
     assert_eq!(at(1.26 * threshold), (Eroding, None));
 }
 
+/// Johnson and Cook's factor `1 − T*` at half the way to melting halves both stresses.
+#[test]
+fn hot_bodies_are_as_weak_as_they_are() {
+    let of = |rod: f64, target: f64| {
+        let text = format!(
+            r#"
+            projectile = {{ material = "metal", length = "50 mm", diameter = "5 mm", impact_velocity = "300 m/s", temperature = "{rod} K" }}
+            target = {{ material = "metal", thickness = "semi-infinite", temperature = "{target} K" }}
+            [materials.metal]
+            density = "8000 kg/m3"
+            youngs_modulus = "200 GPa"
+            poissons_ratio = 0.3
+            specific_heat = "500 J/(kg K)"
+            room_temperature = "300 K"
+            melting_temperature = "1800 K"
+            strength.johnson_cook = {{ a = "1000 MPa", b = "0 MPa", n = 1.0, c = 0.0, m = 1.0, reference_rate = "1 1/s" }}
+            "#
+        );
+        let scenario = case::load_str("hot", &text).unwrap();
+        Regime::of(&scenario).describe(&scenario)
+    };
+    assert!(
+        of(300.0, 300.0).contains("flow stress of 1 GPa"),
+        "{}",
+        of(300.0, 300.0)
+    );
+    assert!(
+        of(1050.0, 300.0).contains("flow stress of 500 MPa"),
+        "{}",
+        of(1050.0, 300.0)
+    );
+    // (2Y/3)(1 + ln(2E/3Y)) with Y = 500 MPa.
+    let hot = of(300.0, 1050.0);
+    assert!(hot.contains("target resistance 2.2 GPa"), "{hot}");
+}
+
 #[test]
 fn targets_are_told_apart_by_their_thickness() {
     let kind = |target: &str| Regime::of(&scenario(400.0, 200.0, target, "'flat'", 100.0)).target;

@@ -231,10 +231,21 @@ fn a_plastic_shock_needs_viscosity() {
             strength.perfectly_plastic.flow_stress = "400 MPa"
             "#
         );
-        run(model, &scenario(&text))
-            .projectile_final_length
-            .unwrap()
+        let result = run(model, &scenario(&text));
+        let mut warnings = result.warnings.iter();
+        let warns =
+            warnings.any(|warning| warning.contains("set `") && warning.contains("plastic shock"));
+        assert_eq!(
+            warns,
+            model != "taylor" && quadratic == 0.0 && velocity > 280.0,
+            "{model}"
+        );
+        result.projectile_final_length.unwrap()
     };
+    // Below ρV²/Y = 1.5 there is no warning.
+    for model in ["chain", "fdm"] {
+        length(model, 270.0, 40, 0.0);
+    }
     for (velocity, short) in [(300.0, 0.05), (400.0, 0.15)] {
         let exact = length("taylor", velocity, 40, 0.0);
         for model in ["chain", "fdm"] {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Command};
+use clap::{Args, Command, builder::Resettable};
 use percuss_report::replace_file::replace_file;
 
 use crate::{failure::Failure, output, run_folder::make_folder};
@@ -48,10 +48,37 @@ impl Man {
 
 fn page(command: &Command) -> Result<String, Failure> {
     let mut roff = Vec::new();
-    clap_mangen::Man::new(command.clone())
+    let own = command.clone();
+    let after = own.get_after_help().map(ToString::to_string);
+    clap_mangen::Man::new(own.after_help(Resettable::Reset))
         .render(&mut roff)
         .map_err(Failure::Output)?;
-    Ok(String::from_utf8_lossy(&roff).into_owned())
+    let page = String::from_utf8_lossy(&roff).into_owned();
+    Ok(page + &sections(&after.unwrap_or_default()))
+}
+
+/// Sections of what stands after the options, one for each paragraph with a title. Lines below a title keep their form: they are commands.
+fn sections(text: &str) -> String {
+    let mut roff = String::new();
+    for paragraph in text.split("\n\n").filter(|paragraph| !paragraph.is_empty()) {
+        let (title, rest) = paragraph.split_once(':').unwrap_or(("Notes", paragraph));
+        let (before, rest, after) = match rest.strip_prefix('\n') {
+            Some(lines) => (".nf\n", lines, ".fi\n"),
+            None => ("", rest.trim_start(), ""),
+        };
+        let lines: String = rest.lines().map(|line| escaped(line) + "\n").collect();
+        roff += &format!(".SH {}\n{before}{lines}{after}", title.to_uppercase());
+    }
+    roff
+}
+
+/// A line as it is to be seen, with hyphens that can be copied.
+fn escaped(line: &str) -> String {
+    let text = line.replace('\\', "\\e").replace('-', "\\-");
+    match text.starts_with(['.', '\'']) {
+        true => format!("\\&{text}"),
+        false => text,
+    }
 }
 
 fn with_subcommands(command: &Command) -> Vec<Command> {

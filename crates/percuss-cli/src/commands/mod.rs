@@ -1,5 +1,6 @@
 //! Commands, one file per command: arguments, help and execution.
 
+mod axi_named;
 mod calibrate;
 mod compare;
 mod completions;

@@ -64,6 +64,7 @@ pub struct Serve {
     host_name: Vec<String>,
     /// Largest number of elements of projectile and target together
     #[arg(long, value_name = "N", default_value_t = RequestLimits::default().elements)]
+    #[arg(value_parser = from_to::<usize>(1, 1_000_000_000, "a number of elements"))]
     max_elements: usize,
     /// Time limit of a run or a study, in seconds
     #[arg(long, value_name = "S", default_value_t = RequestLimits::default().seconds)]

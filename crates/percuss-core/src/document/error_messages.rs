@@ -161,8 +161,9 @@ fn unknown_name(what: &str, name: &str, allowed: &[&str]) -> Reworded {
 }
 
 /// How required keys are written that a user may not guess.
-const EXAMPLES: [(&str, &str); 9] = [
+const EXAMPLES: [(&str, &str); 10] = [
     ("density", "\"8960 kg/m3\""),
+    ("design", "\"grid\" (others: latin-hypercube, sobol)"),
     ("diameter", "\"4.8 mm\""),
     ("impact_velocity", "\"230 m/s\""),
     ("material", "\"copper\""),

@@ -226,6 +226,14 @@ impl Material {
         Some(prepared.flow_stress(&state).stress)
     }
 
+    /// Whether the slow flow stress at unit plastic strain and a temperature [K] is above that of first flow.
+    pub fn hardens_at(&self, temperature: f64) -> bool {
+        let [first, later] = [0.0, 1.0].map(|strain| self.flow_stress_at(strain, temperature));
+        first
+            .zip(later)
+            .is_some_and(|(first, later)| later > first * (1.0 + 1e-9))
+    }
+
     /// Stress at which slow flow starts at a temperature [K] [Pa]; `None` for a law that never flows.
     pub fn yield_stress_at(&self, temperature: f64) -> Option<f64> {
         let yield_stress = self.strength.law().initial_yield_stress(self)?;

@@ -1,6 +1,7 @@
 //! Tensile strength that a strength law implies.
 
 use super::{FlowState, Material};
+use crate::minimum::least;
 
 /// Smallest and largest plastic strain at which necking is looked for.
 const STRAINS: (f64, f64) = (1e-6, 10.0);
@@ -29,16 +30,8 @@ pub fn tensile_strength(material: &Material) -> Option<f64> {
     let ratio = (STRAINS.1 / STRAINS.0).powf(1.0 / f64::from(STEPS));
     let at = |i: u32| STRAINS.0 * ratio.powf(f64::from(i));
     let best = (0..=STEPS).max_by(|&a, &b| nominal(at(a)).total_cmp(&nominal(at(b))))?;
-    let (mut low, mut high) = (at(best) / ratio, at(best) * ratio);
-    for _ in 0..60 {
-        let (left, right) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
-        if nominal(left) < nominal(right) {
-            low = left;
-        } else {
-            high = right;
-        }
-    }
-    Some(nominal((low + high) / 2.0).max(yield_stress))
+    let necking = least(at(best) / ratio, at(best) * ratio, 60, |x| -nominal(x));
+    Some(nominal(necking).max(yield_stress))
 }
 
 #[cfg(test)]

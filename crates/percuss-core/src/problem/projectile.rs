@@ -157,7 +157,7 @@ impl Projectile {
             check.fail(
                 "yaw",
                 format!("no model computes yaw, and this is {yaw}: every model takes a projectile that flies along its axis"),
-                "allowed: 0 deg; an impact at an angle to the struck face is `obliquity`, which the model `particles` computes",
+                "allowed: 0 deg; an impact at an angle to the struck face is `obliquity`",
             );
         }
         check.quantity("temperature", self.temperature, limits::TEMPERATURE);

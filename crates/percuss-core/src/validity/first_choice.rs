@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::NoseKind;
 use crate::{
     material::MaterialClass,
-    regime::{ProjectileRegime, Regime, TargetKind},
+    regime::{ProjectileRegime, Regime, THIN, TargetKind, is_thinner},
     scenario::{Scenario, TargetBody},
 };
 
@@ -24,6 +24,13 @@ pub struct FirstChoice {
     pub because: &'static str,
 }
 
+/// Whether a target of several layers is as thin as a plate that no such choice is made for.
+fn is_thin(scenario: &Scenario, regime: &Regime) -> bool {
+    let thickness = scenario.target_thickness();
+    regime.target == TargetKind::Layered
+        && thickness.is_some_and(|thickness| is_thinner(thickness, THIN, scenario))
+}
+
 impl FirstChoice {
     /// Whether a case is of this kind.
     pub fn fits(&self, scenario: &Scenario, regime: &Regime) -> bool {
@@ -37,6 +44,7 @@ impl FirstChoice {
             && self.targets.contains(&regime.target)
             && self.noses.contains(&NoseKind::of(scenario.projectile.nose))
             && classes
+            && !is_thin(scenario, regime)
             && scenario.brittle().is_empty()
     }
 }

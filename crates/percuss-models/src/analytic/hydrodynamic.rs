@@ -1,6 +1,9 @@
 //! Model `hydrodynamic`: the depth that a rod without strength makes in a target without strength.
 
-use super::long_rod::{LongRod, NOT_ONE_TARGET, at_rest};
+use super::{
+    deep_penetration::NOT_ONE_TARGET,
+    long_rod::{LongRod, at_rest},
+};
 use crate::{
     Error, Refusal, Scenario,
     outcome::{BandQuantity, Detail, Outcome, RunResult, Termination},

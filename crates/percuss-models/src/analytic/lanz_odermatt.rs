@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::long_rod::{LongRod, NOT_ONE_TARGET};
+use super::{deep_penetration::NOT_ONE_TARGET, long_rod::LongRod};
 use crate::{
     Error, Refusal, Scenario,
     outcome::{BandQuantity, Detail, Outcome, RunResult, Termination},

@@ -2,6 +2,7 @@
 
 use super::{
     plate_cavity::{Passage, PlateCavity},
+    plate_impact::PLATE_NEVER_FLOWS,
     plugging::{Plugging, ballistic_limit},
 };
 use crate::{
@@ -72,7 +73,7 @@ pub(super) fn limit(
         Refusal::new(reason).with_remedy(format!("add `{table}.ballistic_limit`"))
     };
     let mut warnings = applicability(model, scenario).map_err(|refusal| refuse(&refusal.reason))?;
-    let speed = speed.ok_or_else(|| refuse("the plate's strength law never flows"))?;
+    let speed = speed.ok_or_else(|| refuse(PLATE_NEVER_FLOWS))?;
     warnings.push(format!(
         "no ballistic limit is given: that of model `{}`, {}, is used; `{table}.ballistic_limit` sets a measured one",
         model.name(),

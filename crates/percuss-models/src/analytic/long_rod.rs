@@ -11,7 +11,7 @@ use crate::{
     units::{Pressure, significant},
 };
 
-use super::ode::IntegrationError;
+use super::{deep_penetration::NOT_ONE_TARGET, ode::IntegrationError};
 
 /// Why a model without noses does not apply to a sharp projectile that stays rigid; `None` for every other case.
 pub(super) fn sharp_and_rigid(scenario: &Scenario) -> Option<Refusal> {
@@ -95,9 +95,6 @@ pub(super) fn erosion_ends([tail, tip, left]: [f64; 3], (speed, length): (f64, f
 pub(super) fn flattened(length: f64, tail: f64, density: f64, strength: f64) -> f64 {
     length * (-0.5 * density * tail * tail / strength).exp()
 }
-
-/// Why a case is none of a rod of one metal on another.
-pub(super) const NOT_ONE_TARGET: &str = "it takes one layer of target";
 
 /// A strength that a case gives [Pa], or a material's flow stress at a plastic strain of 0.1, slow and at room temperature.
 ///

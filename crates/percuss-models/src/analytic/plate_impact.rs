@@ -10,6 +10,9 @@ use crate::{
     scenario::Scenario,
 };
 
+/// Why a plate has no strength to work with.
+pub(super) const PLATE_NEVER_FLOWS: &str = "the plate's strength law never flows";
+
 /// Projectile and plate.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PlateImpact<'a> {

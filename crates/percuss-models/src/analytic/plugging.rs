@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::plate_impact::{PlateImpact, plate_result, refuse, taken_as_rigid};
+use super::plate_impact::{PLATE_NEVER_FLOWS, PlateImpact, plate_result, refuse, taken_as_rigid};
 use crate::{
     Error, Refusal, Scenario,
     material::{Material, tensile_strength},
@@ -101,10 +101,9 @@ impl Model for Plugging {
     }
 
     fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
-        ballistic_limit(scenario).is_none().then(|| {
-            Refusal::new("the plate's strength law never flows")
-                .with_remedy("give `plugging.shear_strength`")
-        })
+        ballistic_limit(scenario)
+            .is_none()
+            .then(|| Refusal::new(PLATE_NEVER_FLOWS).with_remedy("give `plugging.shear_strength`"))
     }
 
     fn run(&self, scenario: &Scenario, _: &mut Control<'_>) -> Result<RunResult, Error> {

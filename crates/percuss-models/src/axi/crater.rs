@@ -80,30 +80,10 @@ pub(super) fn profile(targets: &[Body], mesh: &Mesh, depth: f64) -> Vec<[f64; 2]
         .into_iter()
         .collect();
     for column in 2..columns {
-        let filling = |row: isize| -> f64 {
-            let volume: f64 = fields
-                .iter()
-                .map(|field| field.node(row, column)[VOLUME])
-                .sum();
-            volume / mesh.full_volume(row, column)
-        };
-        let fullest = rows(&fields).map(filling).fold(0.0, f64::max);
-        if fullest < FILLED {
-            // A column on the rim is filled in part all the way down, and one through a hole not at all: neither has a floor.
-            continue;
-        }
-        let mut below: Option<(isize, f64)> = None;
-        for row in rows(&fields).rev() {
-            let here = (row, filling(row));
-            match below {
-                Some(full) if here.1 < 0.5 => {
-                    profile.push([mesh.radius(column as f64), crossing(full, here, mesh)]);
-                    break;
-                }
-                Some(_) => below = Some(here),
-                None => below = (here.1 >= 0.5).then_some(here),
-            }
-        }
+        let radius = mesh.radius(column as f64);
+        // Layers that have parted have a surface each: the first one there is the struck face.
+        let surface = fields.iter().find_map(|field| surface(field, column, mesh));
+        profile.extend(surface.map(|depth| [radius, depth]));
     }
     if let Some(&[_, read]) = profile.first().filter(|[_, read]| *read > 0.0) {
         for [_, below] in profile.iter_mut().filter(|[_, below]| *below > 0.0) {
@@ -111,6 +91,26 @@ pub(super) fn profile(targets: &[Body], mesh: &Mesh, depth: f64) -> Vec<[f64; 2]
         }
     }
     profile
+}
+
+/// Depth of the first surface that one meets at a column from behind a body's deepest material there [m]; `None` where it fills no cell: on a rim,
+/// or through a hole.
+fn surface(field: &Field, column: usize, mesh: &Mesh) -> Option<f64> {
+    let filling = |row: isize| field.node(row, column)[VOLUME] / mesh.full_volume(row, column);
+    let rows = || rows(&[field]);
+    if rows().map(filling).fold(0.0, f64::max) < FILLED {
+        return None;
+    }
+    let mut below: Option<(isize, f64)> = None;
+    for row in rows().rev() {
+        let here = (row, filling(row));
+        match below {
+            Some(full) if here.1 < 0.5 => return Some(crossing(full, here, mesh)),
+            Some(_) => below = Some(here),
+            None => below = (here.1 >= 0.5).then_some(here),
+        }
+    }
+    None
 }
 
 /// Outer surface of a body from its tail to its tip: radius and depth [m]. Its end faces are where the columns of nodes begin and

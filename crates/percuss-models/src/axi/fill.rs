@@ -118,7 +118,7 @@ impl Filling<'_> {
     }
 }
 
-/// Part of a ring's section whose surface radius, at a depth, is beyond it.
+/// Part of a ring's volume inside a body whose surface has a radius at each depth.
 fn inside_part(
     at: f64,
     depth: f64,
@@ -131,7 +131,9 @@ fn inside_part(
         .map(|sample| {
             let offset = (f64::from(sample) + 0.5) / f64::from(SAMPLES) - 0.5;
             let edge = surface(depth + offset * height, at);
-            ((edge - (at - 0.5 * width)) / width).clamp(0.0, 1.0)
+            let part = ((edge - (at - 0.5 * width)) / width).clamp(0.0, 1.0);
+            // The inner part of a ring is shorter around.
+            part * (1.0 + (part - 1.0) * 0.5 * width / at)
         })
         .sum();
     sum / f64::from(SAMPLES)

@@ -2,7 +2,7 @@
 
 use super::{
     pair::{Pair, overlap},
-    state::{State, friction_between},
+    state::State,
 };
 
 impl State {
@@ -73,7 +73,7 @@ impl State {
             velocity: [a.velocity, b.velocity],
             force: [a.force, b.force],
             spring_force: [a.spring_force, b.spring_force],
-            friction: [a, b].map(|node| friction_between(&self.gaps, node.position, node.friction)),
+            friction: [a.friction, b.friction],
         }
     }
 

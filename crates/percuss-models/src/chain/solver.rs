@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::{
     friction::{FrictionSums, KickedMasses},
     part::Section,
-    state::{BoundaryCondition, Element, Segment, State, friction_between},
+    state::{BoundaryCondition, Element, Segment, State},
 };
 use crate::{
     error::NumericalError,
@@ -136,6 +136,9 @@ impl State {
         if control.local_damping > 0.0 {
             self.damp_locally(control.local_damping);
         }
+        if !self.gaps.is_empty() {
+            self.leave_layers();
+        }
         self.kick(kick, control.is_viscous());
         if control.local_damping > 0.0 {
             self.account_for_local_damping(kick);
@@ -154,6 +157,16 @@ impl State {
             self.split_failed_interfaces();
         }
         Ok(())
+    }
+
+    /// Takes the friction from nodes in gaps: what they have left does not hold them again, nor does the next layer.
+    fn leave_layers(&mut self) {
+        for (position, friction) in self.nodes.position.iter().zip(&mut self.nodes.friction) {
+            let is_inside = |[from, to]: &[f64; 2]| from < position && position < to;
+            if self.gaps.iter().any(is_inside) {
+                *friction = 0.0;
+            }
+        }
     }
 
     fn collect_forces(&mut self) {
@@ -237,19 +250,15 @@ impl State {
         let (mut last_mass, mut ratio) = (f64::NAN, f64::NAN);
         let masses = self.nodes.mass[nodes.clone()].iter();
         let forces = self.nodes.force[nodes.clone()].iter();
-        let positions = self.nodes.position[nodes.clone()].iter();
         let frictions = self.nodes.friction[nodes.clone()].iter();
-        let around = positions.zip(frictions);
         let nodes = self.nodes.velocity[nodes].iter_mut();
-        for ((velocity, (&mass, &force)), (&position, &friction)) in
-            nodes.zip(masses.zip(forces)).zip(around)
+        for ((velocity, (&mass, &force)), &friction) in nodes.zip(masses.zip(forces)).zip(frictions)
         {
             // Neighbours mostly have one mass, and a division takes long.
             if mass != last_mass {
                 last_mass = mass;
                 ratio = kick / mass;
             }
-            let friction = friction_between(&self.gaps, position, friction);
             *velocity = kick_mass([mass, ratio], *velocity, [force, friction], &mut sums);
         }
         self.accumulated.kicks.friction = sums;
@@ -258,9 +267,8 @@ impl State {
     pub(super) fn kick_free(&mut self, i: usize, kick: f64) {
         let node = self.nodes.at(i);
         let mut of_node = FrictionSums::default();
-        let friction = friction_between(&self.gaps, node.position, node.friction);
         let masses = [node.mass, kick / node.mass];
-        let forces = [node.force, friction];
+        let forces = [node.force, node.friction];
         self.nodes.velocity[i] = kick_mass(masses, node.velocity, forces, &mut of_node);
         let sums = &mut self.accumulated.kicks.friction;
         sums.impulse += of_node.impulse;

@@ -76,7 +76,7 @@ percuss_core::number_lists! {
         spring_force,
         /// Force of local damping in this step, part of `force` [N].
         damping,
-        /// Largest friction force [N], where it is not in a gap.
+        /// Largest friction force [N]: none from a gap on, where it has left its layer.
         friction,
     }
 }
@@ -84,17 +84,6 @@ percuss_core::number_lists! {
 impl Nodes {
     pub(super) fn len(&self) -> usize {
         self.position.len()
-    }
-}
-
-/// Largest friction force on a node at a position [N]: none in a gap, where nothing is around it.
-#[inline(always)]
-pub(super) fn friction_between(gaps: &[[f64; 2]], position: f64, friction: f64) -> f64 {
-    let is_inside = |[from, to]: &[f64; 2]| *from < position && position < *to;
-    if gaps.iter().any(is_inside) {
-        0.0
-    } else {
-        friction
     }
 }
 

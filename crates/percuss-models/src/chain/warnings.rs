@@ -12,7 +12,8 @@ use crate::{
     scenario::{Plate, Scenario, TargetBody},
     units::{Velocity, significant},
     validity::{
-        border_shear_warning, column_mesh_warnings, fixed_rear_face_warning, pushed_column_warning,
+        border_shear_warning, column_mesh_warnings, fixed_rear_face_warning, plastic_shock_warning,
+        pushed_column_warning,
     },
 };
 
@@ -58,6 +59,12 @@ pub(super) fn warnings(
     warn_of_closure(scenario, result, &mut warnings);
     warn_of_erosion(scenario, result, erosion_strain, &mut warnings);
     warn_of_failure(scenario, result, &mut warnings);
+    let viscosity = scenario.options.chain.artificial_viscosity();
+    warnings.extend(plastic_shock_warning(
+        "chain.artificial_viscosity",
+        scenario,
+        viscosity,
+    ));
     let heated = scenario.options.chain.adiabatic_heating();
     for ((what, material), reached) in scenario.bodies().into_iter().zip(reached) {
         warnings.extend(reached.warnings(&what, material, heated));
@@ -271,7 +278,7 @@ fn warn_of_erosion(
     let element = rod.length / scenario.options.chain.projectile_elements() as f64;
     if projectile > 0 && element > LONGEST_ERODING * rod.diameter {
         warnings.push(format!(
-            "the elements of the projectile are {} diameters long, and one erodes at a time: raise `chain.projectile_elements` to {:.0}",
+            "the elements of the projectile are {} diameters long, and erode one at a time, which makes the depth too small: raise `chain.projectile_elements` to {:.0}",
             significant(element / rod.diameter, 2),
             (rod.length / (ChainOptions::LONGEST_ELEMENT * rod.diameter)).ceil()
         ));

@@ -1,6 +1,7 @@
 //! Pictures of a field: the bodies mirrored in the axis, with scales, colour bar and time.
 
 use kuva::plot::LinePlot;
+use percuss::units::significant;
 use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 
 use super::{
@@ -10,7 +11,6 @@ use super::{
 };
 use crate::{
     Axis, Figure, ReportError,
-    caption::significant,
     color_bar::{self, ColorBar},
     figure_width,
     frame::{Frame, Head},
@@ -105,7 +105,7 @@ impl Canvas {
         if !self.colors.wall {
             let depth = format!(
                 "{} mm deep",
-                significant((points.depth * 1e5).round() / 1e2)
+                significant((points.depth * 1e5).round() / 1e2, 4)
             );
             // A second line leaves the space above the numbers of the bar.
             let (size, places) = match self.note.as_str() {

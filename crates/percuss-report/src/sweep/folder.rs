@@ -267,6 +267,12 @@ pub(super) fn manifest_of(path: &Path) -> Result<Manifest, ReportError> {
     if path.is_file() {
         return Err(fails("this is a file, and a folder of a sweep is due here"));
     }
+    if !path.exists() {
+        return Err(ReportError::Read {
+            path: path.to_owned(),
+            reason: "there is no such folder: give one that `percuss sweep` wrote".to_owned(),
+        });
+    }
     let none = || fails("this is no folder of a sweep: it has no manifest.json");
     Manifest::read(path)?.ok_or_else(none)
 }

@@ -46,8 +46,9 @@ pub fn merge(
         return Err(ReportError::Sweep {
             path: parts.first().to_owned(),
             reason: format!(
-                "{missing} of {} blocks are missing or damaged, the first is {}",
+                "{missing} of {} blocks {} missing or damaged, the first is {}",
                 files.len(),
+                if missing == 1 { "is" } else { "are" },
                 block_file(block as u64)
             ),
             remedy: "`percuss sweep SWEEP.toml --out DIR --resume` computes them".to_owned(),

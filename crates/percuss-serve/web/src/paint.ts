@@ -20,7 +20,7 @@ export function under(plot: uPlot, chart: Chart): void {
     const [left, right] = (chart.x.range ?? [0, 1]).map((x) => plot.valToPos(x, "x", true)) as [number, number];
     const [bottom, top] = (chart.y.range ?? [0, 1]).map((y) => plot.valToPos(y, "y", true)) as [number, number];
     ctx.drawImage(canvas, left, top, right - left, bottom - top);
-    for (const x of chart.vertical_lines) line(plot, chart, { name: "", value: x, vertical: true }, "#000", null);
+    for (const x of chart.vertical_lines) line(plot, chart, { name: "", value: x, vertical: true }, "#000", null, []);
   }
   if (chart.kind === "lines") for (const series of chart.series) band(plot, chart, series);
   ctx.restore();
@@ -53,13 +53,30 @@ export function over(plot: uPlot, chart: Chart): void {
   // Names of many marks stand below each other, for those that are close.
   const vertical = chart.marks.filter((mark) => mark.vertical);
   const isCrowded = chart.kind === "histogram" || vertical.length > 1;
-  chart.marks.forEach((mark) => line(plot, chart, mark, variable("--soft"), mark.vertical && isCrowded ? vertical.indexOf(mark) : null));
+  const names: Box[] = [];
+  vertical.forEach((mark, row) => line(plot, chart, mark, variable("--soft"), isCrowded ? row : null, names));
+  // After the others, whose names they avoid.
+  const horizontal = chart.marks.filter((mark) => !mark.vertical);
+  for (const mark of horizontal) line(plot, chart, mark, variable("--soft"), null, names);
   if (chart.kind === "lines") for (const series of chart.series) errorBars(plot, chart, series);
   ctx.restore();
 }
 
-// A mark; the name of a vertical one stands in a row counted from the top.
-function line(plot: uPlot, chart: Chart, mark: Mark, stroke: string, row: number | null): void {
+// Where a name stands.
+interface Box {
+  left: number;
+  right: number;
+  top: number;
+  bottom: number;
+}
+
+function around(x: number, y: number, width: number): Box {
+  const ratio = devicePixelRatio;
+  return { left: x - 4 * ratio, right: x + width + 4 * ratio, top: y - 13 * ratio, bottom: y + 4 * ratio };
+}
+
+// A mark; the name of a vertical one stands in a row counted from the top. It is added to the names.
+function line(plot: uPlot, chart: Chart, mark: Mark, stroke: string, row: number | null, names: Box[]): void {
   const { ctx, bbox } = plot;
   const ratio = devicePixelRatio;
   const at = plot.valToPos(mark.value, mark.vertical ? "x" : "y", true);
@@ -84,7 +101,8 @@ function line(plot: uPlot, chart: Chart, mark: Mark, stroke: string, row: number
   const width = ctx.measureText(mark.name).width;
   const right = bbox.left + bbox.width - width - 6 * ratio;
   const top = bbox.top + (13 + 15 * (row ?? 0)) * ratio;
-  const [x, y] = mark.vertical ? [Math.min(at + 4 * ratio, right), top] : freePlace(plot, chart, at, width, right, top);
+  const [x, y] = mark.vertical ? [Math.min(at + 4 * ratio, right), top] : freePlace(plot, chart, at, width, right, top, names);
+  names.push(around(x, y, width));
   // A rim in the colour of the ground keeps the name legible over lines, and the lines visible.
   ctx.textAlign = "left";
   ctx.strokeStyle = variable("--card");
@@ -94,8 +112,9 @@ function line(plot: uPlot, chart: Chart, mark: Mark, stroke: string, row: number
   ctx.fillText(mark.name, x, y);
 }
 
-// The place of the name of a horizontal mark, above or below it, where it covers least of curves and of other marks; at the right if all are alike.
-function freePlace(plot: uPlot, chart: Chart, at: number, width: number, right: number, top: number): [number, number] {
+// The place of the name of a horizontal mark, above or below it, where it covers least of curves, other marks and their names; at the right if all
+// are alike.
+function freePlace(plot: uPlot, chart: Chart, at: number, width: number, right: number, top: number, names: Box[]): [number, number] {
   const { bbox } = plot;
   const ratio = devicePixelRatio;
   const obstacles: [number, number][] = [];
@@ -123,9 +142,11 @@ function freePlace(plot: uPlot, chart: Chart, at: number, width: number, right: 
     for (let step = 0; step <= 12; step++) {
       const x = right - (right - left) * step / 12;
       if (x < left - 1) continue;
-      const covers = ([px, py]: [number, number]) => px > x - 4 * ratio && px < x + width + 4 * ratio && py > y - 13 * ratio && py < y + 4 * ratio;
-      const crossed = verticals.filter((place) => place > x - 4 * ratio && place < x + width + 4 * ratio).length;
-      const cost = obstacles.filter(covers).length + 20 * crossed;
+      const box = around(x, y, width);
+      const covers = ([px, py]: [number, number]) => px > box.left && px < box.right && py > box.top && py < box.bottom;
+      const crossed = verticals.filter((place) => place > box.left && place < box.right).length;
+      const hidden = names.filter((name) => name.left < box.right && box.left < name.right && name.top < box.bottom && box.top < name.bottom).length;
+      const cost = obstacles.filter(covers).length + 20 * crossed + 200 * hidden;
       if (cost < least) [best, least] = [[x, y], cost];
     }
   }

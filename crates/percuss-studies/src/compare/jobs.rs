@@ -171,7 +171,8 @@ fn axisymmetric_record(
     let band = answer.value.zip(answer.uncertainty);
     let band = band.map(|(value, uncertainty)| Band {
         quantity,
-        low: value - uncertainty,
+        // Neither a depth nor a residual velocity is below 0, except where a projectile rebounds.
+        low: (value - uncertainty).max(value.min(0.0)),
         high: value + uncertainty,
         basis: "discretisation uncertainty",
     });

@@ -1,5 +1,7 @@
 //! The curve `v_r = a (v^p − v_bl^p)^(1/p)` of Lambert and Jonas through residual velocities, by least squares.
 
+use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
+use nalgebra::{DVector, Dyn, OMatrix, RowVector3, U3, Vector3, storage::Owned};
 use serde::Serialize;
 
 use super::CurvePoint;
@@ -23,14 +25,15 @@ const FEWEST: usize = 4;
 /// Ranges of `a` and `p`: far beyond anything that a plate does, so that only a curve of another shape ends there.
 const FACTORS: std::ops::RangeInclusive<f64> = 1e-3..=3.0;
 const EXPONENTS: std::ops::RangeInclusive<f64> = 0.5..=50.0;
-const ITERATIONS: usize = 500;
+/// Bound on the evaluations, over one more than the number of parameters.
+const PATIENCE: usize = 500;
+/// Difference that stands for each where no curve has the numbers [m/s]: the step is taken back.
+const OUTSIDE: f64 = 1e6;
 /// Fewest points that two numbers are fitted to.
 const FEWEST_AT_LIMIT: usize = 3;
 /// Intervals of ln p that are searched for the least sum of squares, and steps that refine it.
 const INTERVALS: u32 = 48;
 const REFINEMENTS: u32 = 60;
-/// Relative change of the sum of squares that ends the iteration.
-const CONVERGED: f64 = 1e-15;
 
 impl LambertJonasFit {
     /// Residual velocity at an impact velocity [m/s].
@@ -81,7 +84,7 @@ impl LambertJonasFit {
     }
 }
 
-/// Fits the curve with a free limit to points above it, by the method of Levenberg and Marquardt; `None` for fewer than four points with a
+/// Fits the curve with a free limit to points above it, by the method of Levenberg and Marquardt \[more1978\]; `None` for fewer than four points with a
 /// residual velocity, or points that no such curve follows.
 pub fn fit_lambert_jonas(curve: &[CurvePoint]) -> Option<LambertJonasFit> {
     let points = above_limit(curve);
@@ -89,29 +92,66 @@ pub fn fit_lambert_jonas(curve: &[CurvePoint]) -> Option<LambertJonasFit> {
         return None;
     }
     let lowest = points.iter().map(|point| point.0).reduce(f64::min)?;
-    let mut fit = start(&points, lowest)?;
-    let mut squares = fit.squares(&points);
-    let mut damping = 1e-3;
-    for _ in 0..ITERATIONS {
-        let step = damped_step(&fit, &points, damping);
-        let numbers = fit.numbers();
-        let moved = step.map(|step| std::array::from_fn(|i| numbers[i] + step[i]));
-        let trial = moved.and_then(|numbers| LambertJonasFit::with(numbers, lowest));
-        match trial.map(|trial| (trial, trial.squares(&points))) {
-            Some((trial, less)) if less < squares => {
-                let change = (squares - less) / squares;
-                (fit, squares) = (trial, less);
-                damping = (0.1 * damping).max(1e-15);
-                if change < CONVERGED {
-                    break;
-                }
-            }
-            _ if damping > 1e12 => break,
-            _ => damping *= 10.0,
-        }
-    }
-    fit.rms_m_s = (squares / points.len() as f64).sqrt();
+    let numbers = start(&points, lowest)?.numbers().into();
+    let problem = FreeCurve {
+        points: &points,
+        lowest,
+        numbers,
+    };
+    let (problem, _) = LevenbergMarquardt::new()
+        .with_patience(PATIENCE)
+        .minimize(problem);
+    let mut fit = problem.curve()?;
+    fit.rms_m_s = (fit.squares(&points) / points.len() as f64).sqrt();
     Some(fit)
+}
+
+/// Least squares of the three numbers of a curve.
+struct FreeCurve<'a> {
+    points: &'a [(f64, f64)],
+    /// The lowest of their impact velocities, below which the limit lies [m/s].
+    lowest: f64,
+    numbers: Vector3<f64>,
+}
+
+impl FreeCurve<'_> {
+    fn curve(&self) -> Option<LambertJonasFit> {
+        LambertJonasFit::with(self.numbers.into(), self.lowest)
+    }
+}
+
+impl LeastSquaresProblem<f64, Dyn, U3> for FreeCurve<'_> {
+    type ResidualStorage = Owned<f64, Dyn>;
+    type JacobianStorage = Owned<f64, Dyn, U3>;
+    type ParameterStorage = Owned<f64, U3>;
+
+    fn set_params(&mut self, numbers: &Vector3<f64>) {
+        self.numbers = *numbers;
+    }
+
+    fn params(&self) -> Vector3<f64> {
+        self.numbers
+    }
+
+    fn residuals(&self) -> Option<DVector<f64>> {
+        let curve = self.curve();
+        let residual = |(velocity, residual): &(f64, f64)| {
+            curve.map_or(OUTSIDE, |curve| curve.at(*velocity) - residual)
+        };
+        let residuals = self.points.iter().map(residual);
+        Some(DVector::from_iterator(self.points.len(), residuals))
+    }
+
+    fn jacobian(&self) -> Option<OMatrix<f64, Dyn, U3>> {
+        let curve = self.curve()?;
+        let rows = self
+            .points
+            .iter()
+            .map(|(velocity, _)| RowVector3::from(curve.slopes(*velocity)));
+        Some(OMatrix::<f64, Dyn, U3>::from_rows(
+            &rows.collect::<Vec<_>>(),
+        ))
+    }
 }
 
 /// Fits `a` and `p` of the curve that starts at a known limit [m/s]: the best `a` of each `p` is known in closed form, and the best `p` is
@@ -176,49 +216,4 @@ fn start(points: &[(f64, f64)], lowest: f64) -> Option<LambertJonasFit> {
     let candidates =
         candidates.filter_map(|part| with_best_factor(2.0, part * lowest, points, lowest));
     candidates.min_by(|a, b| a.squares(points).total_cmp(&b.squares(points)))
-}
-
-/// Step of the method: the normal equations with their diagonal enlarged by a part.
-fn damped_step(fit: &LambertJonasFit, points: &[(f64, f64)], damping: f64) -> Option<[f64; 3]> {
-    let (mut matrix, mut right) = ([[0.0; 3]; 3], [0.0; 3]);
-    for (velocity, residual) in points {
-        let slopes = fit.slopes(*velocity);
-        for i in 0..3 {
-            right[i] += slopes[i] * (residual - fit.at(*velocity));
-            for j in 0..3 {
-                matrix[i][j] += slopes[i] * slopes[j];
-            }
-        }
-    }
-    for (i, row) in matrix.iter_mut().enumerate() {
-        row[i] *= 1.0 + damping;
-    }
-    solve(matrix, right)
-}
-
-/// Solution of three linear equations by elimination with pivots; `None` for a singular matrix.
-fn solve(mut matrix: [[f64; 3]; 3], mut right: [f64; 3]) -> Option<[f64; 3]> {
-    for i in 0..3 {
-        let pivot = (i..3).max_by(|a, b| matrix[*a][i].abs().total_cmp(&matrix[*b][i].abs()))?;
-        matrix.swap(i, pivot);
-        right.swap(i, pivot);
-        if matrix[i][i] == 0.0 || !matrix[i][i].is_finite() {
-            return None;
-        }
-        let (above, below) = matrix.split_at_mut(i + 1);
-        let pivot = above[i];
-        for (k, row) in below.iter_mut().enumerate() {
-            let factor = row[i] / pivot[i];
-            for (entry, of_pivot) in row.iter_mut().zip(pivot) {
-                *entry -= factor * of_pivot;
-            }
-            right[i + 1 + k] -= factor * right[i];
-        }
-    }
-    let mut solution = [0.0; 3];
-    for i in (0..3).rev() {
-        let known: f64 = (i + 1..3).map(|j| matrix[i][j] * solution[j]).sum();
-        solution[i] = (right[i] - known) / matrix[i][i];
-    }
-    Some(solution)
 }

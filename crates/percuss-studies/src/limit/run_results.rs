@@ -165,6 +165,22 @@ pub(super) fn entry(
             ..without_limit(model, outcome, reason)
         };
     };
+    // At rest nothing penetrates: that alone bounds no limit from below.
+    if samples[below].velocity == 0.0
+        && let Some(undecided) = warnings::undecided(&samples[below..=above], "")
+    {
+        let reason = format!(
+            "complete penetration at {} m/s; {undecided}",
+            velocity(&samples[above])
+        );
+        return ModelLimit {
+            scheme,
+            runs,
+            stated_limit_m_s: stated,
+            curve,
+            ..without_limit(model, LimitOutcome::Undecided, reason)
+        };
+    }
     let found = Bracket {
         stopped_m_s: samples[below].velocity,
         perforated_m_s: samples[above].velocity,

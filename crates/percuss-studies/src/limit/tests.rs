@@ -276,6 +276,21 @@ fn velocities_without_an_answer_are_named() {
             .any(|w| w.contains("inside the bracket"))
     );
 
+    let unbounded = |velocity| match velocity {
+        0.0 => Outcome::AtRest,
+        ..=450.0 => Outcome::Separated,
+        _ => Outcome::Perforated,
+    };
+    let none = one(&made(unbounded), &scenario(BLUNT), &search(0.0, 1600.0, 4));
+    assert_eq!(none.outcome, LimitOutcome::Undecided);
+    assert_eq!((none.ballistic_limit_m_s, none.bracket), (None, None));
+    let reason = none.reason.unwrap();
+    let words = "m/s; from 0.";
+    assert!(
+        reason.starts_with("complete penetration at 45") && reason.contains(words),
+        "{reason}"
+    );
+
     let nowhere = one(
         &made(|_| Outcome::NotApplicable),
         &scenario(BLUNT),

@@ -9,13 +9,18 @@ use crate::units::significant;
 
 /// Says that runs inside the bracket are neither stopped nor perforated.
 pub(super) fn undecided_inside(bracket: &[Sample<LimitRun>]) -> Option<String> {
+    undecided(bracket, ", inside the bracket,")
+}
+
+/// Where in a bracket no run is decided, with what stands after the velocities, and why.
+pub(super) fn undecided(bracket: &[Sample<LimitRun>], place: &str) -> Option<String> {
     let inside = bracket.get(1..bracket.len() - 1)?;
     let (first, last) = (inside.first()?, inside.last()?);
     let Passage::Undecided(reason) = &first.passage else {
         return None;
     };
     Some(format!(
-        "from {} to {} m/s, inside the bracket, the model does not decide: {reason}",
+        "from {} to {} m/s{place} the model does not decide: {reason}",
         velocity(first),
         velocity(last)
     ))

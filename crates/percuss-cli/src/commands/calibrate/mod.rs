@@ -121,9 +121,10 @@ pub struct Calibrate {
     reference: Option<String>,
     /// Relative scatter about the model: `estimated`, a percentage such as "2 %", or `stated` for the stated uncertainties alone
     #[arg(long, value_name = "SCATTER", default_value = "estimated", value_parser = str::parse::<Noise>)]
+    #[arg(allow_hyphen_values = true)]
     noise: Noise,
     /// Least squares only, without a sample of the posterior
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["ensembles", "walkers", "steps"])]
     least_squares: bool,
     /// Number of independent ensembles
     #[arg(long, value_name = "N", default_value = "4")]
@@ -137,7 +138,13 @@ pub struct Calibrate {
     #[arg(value_parser = from_to::<u32>(4, 10_000_000, "a number of steps per walker"))]
     steps: u32,
     /// Seed of the random numbers
-    #[arg(long, value_name = "N", default_value = "0")]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "0",
+        allow_hyphen_values = true
+    )]
+    #[arg(value_parser = from_to::<u64>(0, u64::MAX, "a seed"))]
     seed: u64,
     /// Id of the calibrated material [default: the original id with `-calibrated`]
     #[arg(long, value_name = "ID", value_parser = values::material_id)]

@@ -1,6 +1,6 @@
 //! Table of the differences from measured curves.
 
-use percuss::{compare::Comparison, measured_curves::CurveComparison};
+use percuss::{Scenario, compare::Comparison, measured_curves::CurveComparison};
 use percuss_report::{
     result_rows::curve_label,
     table::{Table, number},
@@ -8,11 +8,11 @@ use percuss_report::{
 
 use crate::{
     table::blocks,
-    terminal::{bold, width, wrap},
+    terminal::{bold, paragraph, width, wrap},
 };
 
 /// The table, for the velocity of the case, of models with histories; empty without measured curves.
-pub fn text(comparison: &Comparison) -> String {
+pub fn text(scenario: &Scenario, comparison: &Comparison) -> String {
     let rows: Vec<(&str, &CurveComparison)> = comparison
         .results
         .iter()
@@ -24,7 +24,12 @@ pub fn text(comparison: &Comparison) -> String {
         })
         .collect();
     if rows.is_empty() {
-        return String::new();
+        return match scenario.measured_curves.is_empty() || comparison.regime.len() == 1 {
+            true => String::new(),
+            false => paragraph(
+                "The measured curves are compared at the impact velocity of the case alone: leave out `--velocity`.",
+            ),
+        };
     }
     let with_unit = |value: Option<f64>, unit: &str| match value {
         Some(_) => format!("{} {unit}", number(value, 3)),

@@ -149,6 +149,7 @@ impl Compare {
         on_progress: ProgressCallback<'_>,
         tell: &dyn Fn(Estimate),
     ) -> Result<ComparisonOutput, Failure> {
+        super::axi_named::refuse_with_fast(self.fast, &self.model)?;
         let document = virtual_files.read(&self.case)?;
         let scenario = case::scenario(&document)?;
         let speeds = self.speeds(&scenario)?;
@@ -247,7 +248,7 @@ impl Compare {
                 1 => single::text(comparison),
                 _ => sweep::text(comparison),
             };
-            text += &curves::text(comparison);
+            text += &curves::text(scenario, comparison);
             text += &quantities::elsewhere(comparison);
             text += &warnings::text(comparison);
             text += &missing::text(comparison);

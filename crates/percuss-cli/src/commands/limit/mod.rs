@@ -93,15 +93,15 @@ pub struct Limit {
     model: Vec<String>,
     /// Range of impact velocities to search, in m/s unless a unit follows
     // A negative velocity gets the error that names the allowed range.
-    #[arg(long, value_name = "FROM..TO", default_value = "0..2000", value_parser = values::range)]
+    #[arg(long, value_name = "FROM..TO", default_value = "0..2000", requires = "case", value_parser = values::range)]
     #[arg(allow_hyphen_values = true)]
     velocity: Range,
     /// Largest bracket between partial and complete penetration: a velocity, or a percentage
-    #[arg(long, value_name = "SPEED", default_value = "0.1 m/s", value_parser = values::tolerance)]
+    #[arg(long, value_name = "SPEED", default_value = "0.1 m/s", requires = "case", value_parser = values::tolerance)]
     #[arg(allow_hyphen_values = true)]
     tolerance: Tolerance,
     /// Residual velocities to compute above the limit, up to 2.5 times the limit; 0 for none
-    #[arg(long, value_name = "COUNT", default_value = "12")]
+    #[arg(long, value_name = "COUNT", default_value = "12", requires = "case")]
     #[arg(value_parser = values::points, allow_hyphen_values = true)]
     points: u16,
     /// Meshes of the axisymmetric limit, whatever they cost [default: standard, within 60 s of processor time]
@@ -197,6 +197,7 @@ impl Limit {
         on_progress: ProgressCallback<'_>,
         tell: &dyn Fn(Estimate),
     ) -> Result<LimitOutput, Failure> {
+        super::axi_named::refuse_with_fast(self.fast, &self.model)?;
         let document = self.case.as_ref().map(|path| virtual_files.read(path));
         let document = document.transpose()?;
         let scenario = document.as_ref().map(case::scenario).transpose()?;

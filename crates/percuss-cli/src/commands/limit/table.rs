@@ -201,7 +201,7 @@ pub fn reasons(limits: &Limits) -> Vec<String> {
 
 /// One line of NAME=VALUE pairs per model.
 pub fn lines(limits: &Limits) -> String {
-    let value = |value: Option<f64>| value.map_or_else(|| "none".to_owned(), |v| significant(v, 6));
+    let value = |value: Option<f64>| value.map_or_else(|| "null".to_owned(), |v| significant(v, 6));
     let line = |limit: &ModelLimit| {
         format!(
             "model={} outcome={} ballistic_limit_m_s={} stopped_m_s={} perforated_m_s={} runs={} warnings={} \
@@ -304,7 +304,7 @@ fn pattern(v50: &V50) -> String {
 
 /// One line of NAME=VALUE pairs per method.
 pub fn v50_lines(v50: &V50) -> String {
-    let value = |value: Option<f64>| value.map_or_else(|| "none".to_owned(), |v| significant(v, 6));
+    let value = |value: Option<f64>| value.map_or_else(|| "null".to_owned(), |v| significant(v, 6));
     let line = |entry: &Estimate| {
         format!(
             "method={} v50_m_s={} low_m_s={} high_m_s={} standard_deviation_m_s={}\n",

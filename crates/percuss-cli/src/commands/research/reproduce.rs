@@ -225,12 +225,11 @@ fn items(reproduction: &Reproduction) -> String {
             Assessment::Reproduced => item.assessment.to_string(),
             _ => yellow(item.assessment),
         };
-        text += &format!(
-            "\n{}: {}\n",
-            item.place,
-            wrap(&item.statement, width() - 10, 2)
-        );
-        text += &format!("  {assessment}: {}\n", wrap(&item.finding, width() - 14, 4));
+        let statement = format!("{}: {}", item.place, item.statement);
+        text += &format!("\n{}\n", wrap(&statement, width(), 2));
+        let words = item.assessment.to_string();
+        let finding = wrap(&format!("{words}: {}", item.finding), width() - 2, 4);
+        text += &format!("  {}\n", finding.replacen(&words, &assessment, 1));
     }
     text
 }

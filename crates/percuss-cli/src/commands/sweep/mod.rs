@@ -315,7 +315,7 @@ fn print_status(folder: &Path) -> Result<(), Failure> {
     );
     if !status.damaged.is_empty() {
         let files = terminal::counted(status.damaged.len(), "damaged file");
-        text += &format!("  {files}: --resume computes their rows again\n");
+        text += &format!("  {files}: --resume computes the lost rows again\n");
     }
     if status.running {
         text += "  a process is computing this sweep now\n";

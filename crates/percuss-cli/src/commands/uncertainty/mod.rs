@@ -97,7 +97,13 @@ pub struct Uncertainty {
     #[arg(value_parser = from_to::<u64>(MIN_SAMPLES, MAX_SAMPLES, "a number of samples"))]
     samples: u64,
     /// Seed of the random numbers
-    #[arg(long, value_name = "S", default_value = "0")]
+    #[arg(
+        long,
+        value_name = "S",
+        default_value = "0",
+        allow_hyphen_values = true
+    )]
+    #[arg(value_parser = from_to::<u64>(0, u64::MAX, "a seed"))]
     seed: u64,
     /// Result to analyse, by its name in JSON; may be given several times. Each model has its own: `percuss models
     /// NAME` lists them

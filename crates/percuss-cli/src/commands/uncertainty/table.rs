@@ -14,7 +14,7 @@ use percuss_report::{
 
 use crate::{
     table::blocks,
-    terminal::{self, bold, paragraph, title},
+    terminal::{self, bold, paragraph, title, width, wrap},
 };
 
 /// All tables and warnings.
@@ -30,7 +30,7 @@ pub fn text(scenario: &Scenario, found: &Uncertainty) -> String {
     text + &bands(found) + &warnings(found)
 }
 
-/// One line of NAME=VALUE pairs per quantity.
+/// One line of NAME=VALUE pairs per quantity; one for its axisymmetric correction, and one per impact velocity for its bands.
 pub fn lines(found: &Uncertainty) -> String {
     let probability = found.perforation.map(|p| p.probability);
     let probability = probability.map_or_else(|| "null".to_owned(), |p| significant(p, 4));
@@ -49,7 +49,41 @@ pub fn lines(found: &Uncertainty) -> String {
             found.failures.runs,
         )
     };
-    found.quantities.iter().map(line).collect()
+    let mut text: String = found.quantities.iter().map(line).collect();
+    if let Some(spread) = &found.axisymmetric {
+        text += &format!(
+            "axisymmetric.quantity={} mean={} standard_error={} standard_deviation={} p05={} p50={} p95={} runs={} left_out={}\n",
+            spread.quantity,
+            significant(spread.mean, 6),
+            significant(spread.standard_error, 6),
+            significant(spread.standard_deviation, 6),
+            significant(spread.p05, 6),
+            significant(spread.p50, 6),
+            significant(spread.p95, 6),
+            spread.points.len(),
+            spread.left_out,
+        );
+    }
+    for band in &found.bands {
+        for (i, quantity) in found.quantities.iter().enumerate() {
+            let statistics = band.quantities[i].statistics.as_ref();
+            let at = |percent| {
+                let value = statistics.map(|s| significant(s.percentile(percent).value, 6));
+                value.unwrap_or_else(|| "null".to_owned())
+            };
+            text += &format!(
+                "impact_velocity_m_s={} quantity={} p05={} p50={} p95={} runs={} failed={}\n",
+                significant(band.impact_velocity_m_s, 6),
+                quantity.quantity,
+                at(5.0),
+                at(50.0),
+                at(95.0),
+                band.runs,
+                band.failed,
+            );
+        }
+    }
+    text
 }
 
 fn head(scenario: &Scenario, found: &Uncertainty) -> String {
@@ -177,6 +211,7 @@ fn axisymmetric(found: &Uncertainty) -> String {
         ),
     };
     let title = format!("axisymmetric {what}, corrected by {points}; ± is a standard error");
+    let title = wrap(&title, width(), 0);
     let row = |(name, value): &(&str, String)| format!("{name:<28}{value}\n");
     format!(
         "{}\n{}\n",

@@ -9,7 +9,7 @@ use std::{borrow::Cow, f64::consts::PI};
 
 use self::stages::Impact;
 use super::{
-    plate_impact::{PlateImpact, plate_result, refuse, taken_as_rigid},
+    plate_impact::{PLATE_NEVER_FLOWS, PlateImpact, plate_result, refuse, taken_as_rigid},
     plugging::PLUG_RANGES,
 };
 use crate::{
@@ -92,7 +92,7 @@ impl Model for AwerbuchBodner {
         let options = &scenario.options.awerbuch_bodner;
         let given = options.crushing_stress.is_some() && options.shear_strength.is_some();
         (!given && tensile_strength(case.plate).is_none()).then(|| {
-            Refusal::new("the plate's strength law never flows").with_remedy(
+            Refusal::new(PLATE_NEVER_FLOWS).with_remedy(
                 "give `awerbuch_bodner.crushing_stress` and `awerbuch_bodner.shear_strength`",
             )
         })

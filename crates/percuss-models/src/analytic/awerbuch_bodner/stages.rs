@@ -1,5 +1,7 @@
 //! The three stages of the perforation of a plate by a blunt rigid projectile.
 
+use crate::bisection::bisect;
+
 /// A flat rigid projectile against a plate that crushes and shears.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Impact {
@@ -65,6 +67,8 @@ const NOTHING: f64 = 1e-9;
 const MOST_STEPS: u32 = 100_000;
 /// Moments that a stage with a closed form is recorded at.
 const RECORDED: u32 = 60;
+/// Halvings between two speeds, one at most twice the other, to a part in 1e7.
+const HALVINGS: u32 = 24;
 
 impl Impact {
     /// Mass of plate per thickness [kg/m].
@@ -331,15 +335,7 @@ impl Impact {
             low = high;
             high *= 2.0;
         }
-        while high - low > 1e-7 * high {
-            let middle = (low + high) / 2.0;
-            if leaves(middle) {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
-        high
+        bisect(low, high, HALVINGS, |speed| !leaves(speed)).1
     }
 }
 

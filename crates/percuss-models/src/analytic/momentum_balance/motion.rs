@@ -192,6 +192,8 @@ impl Motion {
     /// When an integration finds no end.
     pub(super) fn penetrate(&self, speed: f64, length: f64) -> Result<Stop, NumericalError> {
         let (mut state, moving, time) = self.first_contact(speed, length);
+        // Moves with the floor, and is still part of the rod.
+        let head = length - state[2];
         let first_speed = state[1];
         let mut stop = Stop {
             depth: 0.0,
@@ -217,10 +219,10 @@ impl Motion {
             let end = self.solve(state, moving, Phase::After, (speed, length))?;
             (state, stop.time, stop.length) = (end.state, stop.time + end.time, 0.0);
         } else if state[1] <= 2.0 * STOPPED * speed {
-            stop.length = flattened(state[2], state[0], density, strength);
+            stop.length = head + flattened(state[2], state[0], density, strength);
         } else {
             let end = self.solve(state, moving, Phase::Rigid, (speed, length))?;
-            (state, stop.time, stop.length) = (end.state, stop.time + end.time, state[2]);
+            (state, stop.time, stop.length) = (end.state, stop.time + end.time, head + state[2]);
         }
         stop.depth = state[3];
         stop.after_erosion = state[3] - before;

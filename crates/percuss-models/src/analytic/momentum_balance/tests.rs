@@ -175,6 +175,23 @@ fn a_rigid_rod_is_poncelets() {
     );
 }
 
+/// The slice that the first contact stops is still part of a rod that flows: at the slowest impacts it keeps its length.
+#[test]
+fn a_slow_rod_keeps_its_length() {
+    let motion = tungsten_on_steel();
+    for speed in [0.5_f64, 5.0, 50.0] {
+        let stop = motion.penetrate(speed, 0.05).unwrap();
+        let shorter = 1.0 - stop.length / 0.05;
+        // Taylor's `ρ V²/2Y`, of the length.
+        let flattened = 0.5 * motion.rod.density * speed * speed / motion.rod.strength;
+        println!("{speed} m/s: shorter by {shorter:e}, flattened alone {flattened:e}");
+        assert!(
+            (0.0..2.0 * flattened).contains(&shorter),
+            "{speed}: {stop:?}"
+        );
+    }
+}
+
 /// Momentum on the axis at the end is what it was, less what the stresses and the leaving metal took.
 #[test]
 fn the_momentum_balance_closes() {

@@ -53,7 +53,7 @@ impl Flow {
         let mut temperature = material.room_temperature.si();
         let mut temperatures = vec![temperature];
         let melting = melting_heat(material) / options.heat_fraction();
-        let softens = !strength.depends_on_temperature() && hardens(&*law, temperature);
+        let softens = !strength.depends_on_temperature() && material.hardens_at(temperature);
         let mut work = 0.0;
         let mut strengths = if softens { vec![1.0] } else { Vec::new() };
         for i in 0..NODES {
@@ -160,20 +160,6 @@ fn melting_heat(material: &Material) -> f64 {
 pub(super) fn own_melting_heat(material: &Material) -> Option<f64> {
     let warming = material.melting_temperature?.si() - material.room_temperature.si();
     Some(material.density.si() * material.specific_heat?.si() * warming)
-}
-
-/// Whether the stress at unit strain is above that of first yield.
-fn hardens(law: &dyn PreparedStrength, temperature: f64) -> bool {
-    let stress = |plastic_strain| {
-        let state = FlowState {
-            plastic_strain,
-            strain_rate: 0.0,
-            temperature,
-            pressure: 0.0,
-        };
-        law.flow_stress(&state).stress
-    };
-    stress(1.0) > stress(0.0) * (1.0 + 1e-9)
 }
 
 /// Value at a plastic strain of a table over the nodes, by cubic interpolation: the least of a function of it must not depend on its nodes.

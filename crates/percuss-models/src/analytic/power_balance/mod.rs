@@ -19,7 +19,7 @@ use self::{
 };
 use super::{
     plate_cavity::PLATES,
-    plate_impact::{PlateImpact, plate_result, refuse, taken_as_rigid},
+    plate_impact::{PLATE_NEVER_FLOWS, PlateImpact, plate_result, refuse, taken_as_rigid},
 };
 use crate::{
     Error, Refusal, Scenario,
@@ -229,8 +229,7 @@ impl Model for PowerBalance {
     fn not_applicable(&self, scenario: &Scenario) -> Option<Refusal> {
         let case = PlateImpact::of(scenario)?;
         tensile_strength(case.plate).is_none().then(|| {
-            Refusal::new("the plate's strength law never flows")
-                .with_remedy("give the plate a strength law that flows")
+            Refusal::new(PLATE_NEVER_FLOWS).with_remedy("give the plate a strength law that flows")
         })
     }
 

@@ -9,8 +9,8 @@ use std::borrow::Cow;
 pub use equations::{Phase, Rods, Stop};
 
 use super::{
-    deep_penetration::never_yields,
-    long_rod::{LongRod, NOT_ONE_TARGET, at_rest, rests_on, sharp_and_rigid, strength},
+    deep_penetration::{NOT_ONE_TARGET, never_yields},
+    long_rod::{LongRod, at_rest, rests_on, sharp_and_rigid, strength},
 };
 use crate::{
     Error, Refusal, Scenario,

@@ -7,7 +7,9 @@ use crate::{
     scenario::TargetBody,
     solver::monitor::RunMonitor,
     units::significant,
-    validity::{border_shear_warning, column_mesh_warnings, pushed_column_warning},
+    validity::{
+        border_shear_warning, column_mesh_warnings, plastic_shock_warning, pushed_column_warning,
+    },
 };
 
 /// Strain beyond which a cell would have eroded in the chain.
@@ -102,6 +104,12 @@ fn warnings(rod: &Rod<'_>, result: &RunResult) -> Vec<String> {
             significant(rest * 1e6, 3)
         ));
     }
+    let viscosity = rod.options.artificial_viscosity;
+    warnings.extend(plastic_shock_warning(
+        "fdm.artificial_viscosity",
+        scenario,
+        viscosity,
+    ));
     let heated = scenario.options.chain.adiabatic_heating();
     let mut bodies = of_materials(scenario, grid, heated).into_iter();
     warnings.extend(bodies.next().into_iter().flatten());

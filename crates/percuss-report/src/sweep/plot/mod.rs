@@ -86,6 +86,12 @@ pub fn plot(folders: &[PathBuf], request: &PlotRequest) -> Result<Figure, Report
             "name two, or leave one out".to_owned(),
         ));
     }
+    if request.style == Some(PlotStyle::Parallel) && (x.is_some() || y.is_some()) {
+        return Err(fail(
+            "parallel coordinates draw all parameters, and --x or --y selects some".to_owned(),
+            "leave them out, or draw --style curves or --style map".to_owned(),
+        ));
+    }
     let rows = Rows::read(&parts, &quantity)?;
     if rows.values.is_empty() {
         return Err(fail(
