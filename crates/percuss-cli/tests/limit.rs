@@ -457,3 +457,29 @@ target = { material = 'weldox-460-e', thickness = '20 mm' }
     let [whole, narrow] = [of(&[]), of(&["--velocity", "200..450"])];
     assert!((whole / narrow - 1.0).abs() < 1e-3, "{whole}, {narrow}");
 }
+
+#[test]
+fn options_without_effect_are_refused() {
+    let folder = folder(BLUNT);
+    let refused = |arguments: &[&str], words: &str| {
+        let said = limit(&folder, arguments);
+        assert_eq!(said.code, 2, "{arguments:?}: {}", said.stderr);
+        assert!(flat(&said.stderr).contains(words), "{}", said.stderr);
+    };
+    for (option, value) in [
+        ("--velocity", "100..400"),
+        ("--tolerance", "1 %"),
+        ("--points", "3"),
+    ] {
+        refused(&["--tests", "tests.csv", option, value], "CASE.toml");
+    }
+    refused(
+        &["shot.toml", "--fast", "--model", "axi"],
+        "`--fast` leaves out the axisymmetric model",
+    );
+    let said = percuss(
+        folder.path(),
+        ["compare", "shot.toml", "--fast", "--model", "axi"],
+    );
+    assert_eq!(said.code, 2, "{}", said.stderr);
+}

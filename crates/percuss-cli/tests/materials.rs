@@ -326,6 +326,15 @@ fn exported_records_are_read_and_refusals_have_reasons() {
     let here = folder.path();
     let text = ok(here, &["materials", "export", "rha", "copper"]);
     fs::write(here.join("mine.toml"), text).unwrap();
+    // By id and by family it is one record.
+    let deck = |names: &[&str]| {
+        let end = ["--format", "ls-dyna", "--units", "m-kg-s"];
+        ok(here, &[&["materials", "export"], names, &end[..]].concat())
+    };
+    assert_eq!(
+        deck(&["4340", "4340-johnson-cook", "4340"]),
+        deck(&["4340"])
+    );
     let listed = ok(here, &["materials", "--file", "mine.toml", "--json"]);
     assert!(listed.contains("mine.toml"), "{listed}");
     for (arguments, words) in [

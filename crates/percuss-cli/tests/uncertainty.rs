@@ -320,6 +320,27 @@ fn axisymmetric_runs_correct_mean_and_spread() {
     let text = ok(&folder, &arguments);
     let words = "axisymmetric depth of penetration, corrected by 4 runs of `axi`";
     assert!(flat(&text).contains(words), "{text}");
+    // The pairs have it, too, and a quantity asked for twice stands once.
+    let quantity = ["--quantity", "depth_of_penetration_mm"];
+    let arguments = [
+        &arguments[..],
+        &quantity,
+        &quantity,
+        &["--velocity", "230,300", "--quiet"],
+    ];
+    let pairs = ok(&folder, &arguments.concat());
+    let starts = pairs
+        .lines()
+        .map(|line| line.split_whitespace().next().unwrap());
+    assert_eq!(
+        starts.collect::<Vec<_>>(),
+        [
+            "quantity=depth_of_penetration_mm",
+            "axisymmetric.quantity=depth_of_penetration_mm",
+            "impact_velocity_m_s=230",
+            "impact_velocity_m_s=300"
+        ]
+    );
     let refused = ok(
         &folder,
         &[

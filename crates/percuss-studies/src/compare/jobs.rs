@@ -171,8 +171,11 @@ fn axisymmetric_record(
     let band = answer.value.zip(answer.uncertainty);
     let band = band.map(|(value, uncertainty)| Band {
         quantity,
-        // Neither a depth nor a residual velocity is below 0, except where a projectile rebounds.
-        low: (value - uncertainty).max(value.min(0.0)),
+        // A number that is not below 0 is not so on any mesh.
+        low: match value >= 0.0 {
+            true => (value - uncertainty).max(0.0),
+            false => value - uncertainty,
+        },
         high: value + uncertainty,
         basis: "discretisation uncertainty",
     });

@@ -1,6 +1,6 @@
 //! `percuss materials export`: records as TOML, JSON, a table, or cards of a deck.
 
-use std::path::PathBuf;
+use std::{collections::HashSet, path::PathBuf};
 
 use clap::{Args, ValueEnum};
 use percuss::{
@@ -90,7 +90,11 @@ impl Export {
 
     fn text(&self, library: &Library) -> Result<String, Failure> {
         let find = |name: &String| show::find(library, name);
-        let entries: Vec<&MaterialEntry> = self.names.iter().map(find).collect::<Result<_, _>>()?;
+        let mut entries: Vec<&MaterialEntry> =
+            self.names.iter().map(find).collect::<Result<_, _>>()?;
+        // A record that is named twice, by id and alias for example, is written once.
+        let mut written = HashSet::new();
+        entries.retain(|entry| written.insert(&entry.id));
         let records = || -> MaterialTable {
             let entries = entries.iter();
             let records = entries.map(|entry| (entry.id.clone(), Material::clone(&entry.material)));

@@ -3,6 +3,7 @@
 mod table;
 
 use std::{
+    collections::HashSet,
     path::PathBuf,
     sync::{
         Mutex, PoisonError,
@@ -218,7 +219,8 @@ impl Uncertainty {
             Some(speeds) => speeds.of(&study.scenario)?,
             None => Vec::new(),
         };
-        let names = self.quantity.iter();
+        let mut asked = HashSet::new();
+        let names = self.quantity.iter().filter(|name| asked.insert(*name));
         let settings = Settings {
             samples: self.samples,
             seed: self.seed,
