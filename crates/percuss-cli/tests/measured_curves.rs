@@ -117,12 +117,14 @@ fn models_with_histories_are_compared_with_the_curves() {
     let formula = &of("crater_energy")["measured_curves"][0];
     assert_eq!(formula["reason"], "the model keeps no history");
 
-    // At another velocity nothing was measured.
-    let other = ok(
-        path,
-        &["compare", "shot.toml", "--fast", "--velocity", "300"],
-    );
-    assert!(!other.contains("measured curves"), "{other}");
+    // At another velocity nothing was measured, which is said.
+    for (velocity, is_own) in [("300", false), ("260,300", false), ("230,300", true)] {
+        let words = ["compare", "shot.toml", "--fast", "--velocity", velocity];
+        let other = ok(path, &words);
+        assert_eq!(other.contains("measured curves"), is_own, "{other}");
+        let note = "The curves of the case were measured at 230 m/s, and are compared at that velocity alone.";
+        assert_eq!(flat(&other).contains(note), !is_own, "{other}");
+    }
 }
 
 #[test]

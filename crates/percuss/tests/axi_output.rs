@@ -186,3 +186,32 @@ fn frames_come_at_even_intervals_and_hold_the_whole_mass() {
     let length = shapes.projectile.last().unwrap()[1] - shapes.projectile[0][1];
     assert_eq!(Some(length), result.projectile_final_length);
 }
+
+/// The crater of a target whose layers have parted is in the first of them. Where the plate has bent by less than its thickness, from 2.5 diameters
+/// on, every surface of the second layer is deeper than 4 mm; the volume is below that of the first.
+#[test]
+fn a_crater_is_in_the_struck_layer() {
+    let text = r#"
+        projectile = { material = "4340", length = "50 mm", diameter = "10 mm", impact_velocity = "400 m/s" }
+        target = { back_face = "free", layers = [{ material = "2024-t3", thickness = "4 mm" }, { material = "2024-t3", thickness = "4 mm" }] }
+        axi.cells_per_radius = 3
+    "#;
+    let scenario = case::load_str("two-layers", text).unwrap();
+    let result = run(&scenario, &mut Control::default()).unwrap();
+    let crater = result.shapes.unwrap().crater;
+    let far: Vec<_> = crater.iter().filter(|[r, _]| *r > 25e-3).collect();
+    println!("{far:.4?}");
+    assert!(
+        far.len() > 3 && far.iter().all(|[_, depth]| *depth < 4e-3),
+        "{far:.4?}"
+    );
+    let volume = result
+        .details
+        .iter()
+        .find(|detail| detail.name.contains("crater volume"));
+    let volume = volume.unwrap().value;
+    assert!(
+        volume < std::f64::consts::PI * 50.0 * 50.0 * 4.0,
+        "{volume}"
+    );
+}

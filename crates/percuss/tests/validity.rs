@@ -291,6 +291,20 @@ fn a_first_choice_fits_its_kind_of_case_only() {
         100.0
     )));
     assert!(!fits(&scenario("rigid_wall = true", "'flat'", 100.0)));
+    // Layers that are together as thin as a thin plate are no case for it.
+    let layers = |each: f64| {
+        let layer = format!("{{ material = 'rod', thickness = '{each} mm' }}");
+        let case = scenario(&format!("layers = [{layer}, {layer}]"), "'flat'", 100.0);
+        let regime = Regime::of(&case);
+        let choice = FirstChoice {
+            projectile: regime.projectile,
+            targets: &[TargetKind::Layered],
+            ..choice
+        };
+        choice.fits(&case, &regime)
+    };
+    // 0.88 and 0.84 diameters.
+    assert!(layers(2.2) && !layers(2.1));
     assert!(fits(&scenario(PLATE, "'flat'", 100.0)));
     let concrete = FirstChoice {
         target_material: MaterialClass::Concrete,

@@ -171,7 +171,7 @@ fn axisymmetric_record(
     let band = answer.value.zip(answer.uncertainty);
     let band = band.map(|(value, uncertainty)| Band {
         quantity,
-        // A number that is not below 0 is not so on any mesh.
+        // Depths, lengths and velocities after perforation are not negative.
         low: match value >= 0.0 {
             true => (value - uncertainty).max(0.0),
             false => value - uncertainty,

@@ -1,6 +1,6 @@
 //! Table of the differences from measured curves.
 
-use percuss::{Scenario, compare::Comparison, measured_curves::CurveComparison};
+use percuss::{Scenario, compare::Comparison, measured_curves::CurveComparison, units::Velocity};
 use percuss_report::{
     result_rows::curve_label,
     table::{Table, number},
@@ -24,11 +24,14 @@ pub fn text(scenario: &Scenario, comparison: &Comparison) -> String {
         })
         .collect();
     if rows.is_empty() {
-        return match scenario.measured_curves.is_empty() || comparison.regime.len() == 1 {
+        let own = scenario.impact_velocity;
+        let is_own = matches!(&*comparison.regime, [only] if only.impact_velocity_m_s == own);
+        return match scenario.measured_curves.is_empty() || is_own {
             true => String::new(),
-            false => paragraph(
-                "The measured curves are compared at the impact velocity of the case alone: leave out `--velocity`.",
-            ),
+            false => paragraph(&format!(
+                "The curves of the case were measured at {}, and are compared at that velocity alone.",
+                Velocity::new(own)
+            )),
         };
     }
     let with_unit = |value: Option<f64>, unit: &str| match value {
