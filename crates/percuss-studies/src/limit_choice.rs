@@ -4,7 +4,7 @@ use crate::{
     Scenario,
     limit_error::expected_error,
     model::{Choice, Control, Model, fast_models},
-    outcome::{BandQuantity, Outcome},
+    outcome::{BandQuantity, Outcome, RunResult},
     problem::RearFaceCondition,
     regime::Regime,
     validity::NoseKind,
@@ -29,36 +29,52 @@ pub(crate) fn comes_first(scenario: &Scenario, is_judged: bool) -> bool {
     is_judged || NoseKind::of(scenario.projectile.nose) == NoseKind::Flat
 }
 
-/// A first choice for limits that comes before the axisymmetric one and sees another outcome of an impact on a plate with a free rear face: its name
-/// and its outcome.
+/// What the first choices for limits that come before the axisymmetric one say of an impact on a plate with a free rear face: name of each and
+/// its result.
+fn results_before_axisymmetric(
+    scenario: &Scenario,
+) -> impl Iterator<Item = (&'static str, RunResult)> {
+    let is_free = scenario.rear_face() == Some(RearFaceCondition::Free);
+    let models = is_free.then(fast_models).unwrap_or_default();
+    let regime = Regime::of(scenario);
+    models.into_iter().filter_map(move |model| {
+        if !model
+            .validity()
+            .predicts
+            .contains(&BandQuantity::BallisticLimit)
+        {
+            return None;
+        }
+        Choice::of(model, scenario, &regime)?;
+        let found = model.run(scenario, &mut Control::default()).ok()?;
+        let is_judged = expected_error(model, scenario, scenario.impact_velocity).is_some();
+        let choice = first_choice(model, scenario, &regime, is_judged)?;
+        comes_first(scenario, is_judged).then_some((choice.model, found))
+    })
+}
+
+/// A first choice for limits that comes before the axisymmetric one and sees another outcome of an impact: its name and its outcome.
 pub(crate) fn another_outcome(
     scenario: &Scenario,
     outcome: Outcome,
 ) -> Option<(&'static str, Outcome)> {
     let is_open = |outcome| matches!(outcome, Outcome::OutOfTime | Outcome::Failed);
-    if scenario.rear_face() != Some(RearFaceCondition::Free) || is_open(outcome) {
+    if is_open(outcome) {
         return None;
     }
-    let regime = Regime::of(scenario);
-    let predicts_limits = |model: &&'static dyn Model| {
-        let predicts = model.validity().predicts;
-        predicts.contains(&BandQuantity::BallisticLimit)
-    };
-    fast_models()
-        .into_iter()
-        .filter(predicts_limits)
-        .find_map(|model| {
-            Choice::of(model, scenario, &regime)?;
-            let found = model.run(scenario, &mut Control::default()).ok()?.outcome;
-            let differs = (found == Outcome::Perforated) != (outcome == Outcome::Perforated);
-            if is_open(found) || !differs {
-                return None;
-            }
-            let is_judged = expected_error(model, scenario, scenario.impact_velocity).is_some();
-            first_choice(model, scenario, &regime, is_judged)
-                .filter(|_| comes_first(scenario, is_judged))
-                .map(|choice| (choice.model, found))
+    results_before_axisymmetric(scenario)
+        .map(|(model, found)| (model, found.outcome))
+        .find(|(_, found)| {
+            let differs = (*found == Outcome::Perforated) != (outcome == Outcome::Perforated);
+            differs && !is_open(*found)
         })
+}
+
+/// A first choice for limits that comes before the axisymmetric one and perforates the plate: its name and its residual velocity [m/s].
+pub(crate) fn another_residual_velocity(scenario: &Scenario) -> Option<(&'static str, f64)> {
+    results_before_axisymmetric(scenario)
+        .filter(|(_, found)| found.outcome == Outcome::Perforated)
+        .find_map(|(model, found)| Some((model, found.residual_velocity?)))
 }
 
 #[cfg(test)]
@@ -89,6 +105,13 @@ mod tests {
         assert_eq!(flat(250.0, Outcome::OutOfTime), None);
         let held = of(250.0, "'flat'", "fixed");
         assert_eq!(another_outcome(&held, Outcome::Rebounded), None);
+        let (model, velocity) = another_residual_velocity(&of(250.0, "'flat'", "free")).unwrap();
+        assert!(model == "power_balance" && velocity > 0.0 && velocity < 250.0);
+        assert_eq!(
+            another_residual_velocity(&of(150.0, "'flat'", "free")),
+            None
+        );
+        assert_eq!(another_residual_velocity(&held), None);
         // Too few limits of sharp noses on steel are published for one to come before `axi`; of cores on aluminium there are enough.
         let cone = of(200.0, "{ cone = { length_to_diameter = 1.7 } }", "free");
         assert_eq!(another_outcome(&cone, Outcome::Perforated), None);

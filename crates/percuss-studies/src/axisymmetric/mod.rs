@@ -30,15 +30,16 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::{
-    Error, Scenario,
+    Error, Scenario, axi,
     jobs::Jobs,
-    limit_choice::another_outcome,
+    limit_choice::{another_outcome, another_residual_velocity},
     model::{self, Control, Model},
     outcome::{BandQuantity, Outcome, RunResult},
     problem::RearFaceCondition,
     richardson::OnMesh,
     scenario::TargetBody,
     solver::frames::Frame,
+    units::significant,
     validity::THROUGH_FIXED_FACE,
 };
 
@@ -307,8 +308,8 @@ impl AxisymmetricAnswer {
     }
 }
 
-/// Why a value in the limit of meshes, with the outcome, is not one to use: a material breaks, the meshes do not settle it, or the limit to use
-/// lies on the other side.
+/// Why a value in the limit of meshes, with the outcome, is not one to use: a material breaks, the limit to use lies on the other side, a plate that
+/// is perforated cannot fail, or the meshes do not settle it.
 fn doubt(
     scenario: &Scenario,
     meshes: ReferenceMeshes,
@@ -329,6 +330,11 @@ fn doubt(
             other.describe()
         ));
     }
+    if outcome == Outcome::Perforated
+        && let Some(doubt) = doubt_without_failure(scenario, value, uncertainty)
+    {
+        return Some(doubt);
+    }
     let reason = match (value, uncertainty) {
         (_, None) => "the meshes differ in their outcome",
         (value, Some(error)) if error > value.abs() => {
@@ -341,6 +347,28 @@ fn doubt(
             format!("{reason}; `percuss run --reference fine` takes finer ones")
         }
         ReferenceMeshes::Fine => reason.to_owned(),
+    })
+}
+
+/// Why a residual velocity [m/s] behind a plate that cannot fail is not one to use, where the model whose limit is the one to use gives another.
+fn doubt_without_failure(
+    scenario: &Scenario,
+    velocity: f64,
+    uncertainty: Option<f64>,
+) -> Option<String> {
+    let cannot_fail = axi::layers_that_cannot_fail(scenario);
+    if cannot_fail.is_empty() {
+        return None;
+    }
+    let (model, other) = another_residual_velocity(scenario)?;
+    let differs = (velocity - other).abs() > uncertainty.unwrap_or(0.0);
+    differs.then(|| {
+        format!(
+            "{} has no `damage` in its record, and stretching and thinning alone takes more energy than failure: `{model}`, whose ballistic limit is \
+             the one to use here, gives {} m/s",
+            cannot_fail.join(", "),
+            significant(other, 3)
+        )
     })
 }
 
