@@ -10,6 +10,9 @@ use crate::{
     units::ResultUnit,
 };
 
+/// Part of the impact velocity below which a projectile counts as stopped.
+pub const REST_FRACTION: f64 = 0.01;
+
 /// Outcome of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "snake_case")]

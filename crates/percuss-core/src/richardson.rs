@@ -5,6 +5,8 @@ use crate::bisection::bisected;
 /// Orders that an extrapolation is trusted with: the schemes are of second order at best, and one half belongs to a front that still
 /// widens.
 pub const CREDIBLE_ORDERS: std::ops::RangeInclusive<f64> = 0.5..=2.2;
+/// Factor of safety of an extrapolation from three meshes: that of the grid convergence index \[roache1994\].
+pub const SAFETY: f64 = 1.25;
 /// Differences between meshes below this part of the value are rounding, not convergence.
 const NEGLIGIBLE: f64 = 1e-9;
 /// Largest order that is looked for; a sequence that falls faster than this is reported with it.

@@ -207,9 +207,28 @@ fn start_temperature(given: Option<f64>, material: &Material) -> f64 {
     given.unwrap_or(material.room_temperature.si())
 }
 
+/// Difference from the temperature of a material's record that counts as none [K]: rooms differ by as much.
+const ROOM: f64 = 5.0;
+
+/// Whether a temperature [K] is that at which a material was measured.
+pub(crate) fn is_room_temperature(temperature: f64, material: &Material) -> bool {
+    (temperature - material.room_temperature.si()).abs() <= ROOM
+}
+
 /// Whether a body is not at the temperature that its material was measured at.
 fn is_heated(given: Option<f64>, material: &Material) -> bool {
-    start_temperature(given, material) != material.room_temperature.si()
+    !is_room_temperature(start_temperature(given, material), material)
+}
+
+/// What is named, each once, in the order of its first place.
+pub fn each_once<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut known = Vec::new();
+    for name in names {
+        if !known.contains(&name) {
+            known.push(name);
+        }
+    }
+    known
 }
 
 impl Scenario {
@@ -311,13 +330,10 @@ impl Scenario {
         let rod = &self.projectile;
         let layers = self.layers().iter();
         let layers = layers.map(|layer| (&*layer.material, &*layer.material_id));
-        let mut ids: Vec<&str> = std::iter::once((&*rod.material, &*rod.material_id))
+        let brittle = std::iter::once((&*rod.material, &*rod.material_id))
             .chain(layers)
-            .filter(|(material, _)| material.fracture.is_some())
-            .map(|(_, id)| id)
-            .collect();
-        ids.dedup();
-        ids
+            .filter(|(material, _)| material.fracture.is_some());
+        each_once(brittle.map(|(_, id)| id))
     }
 
     /// The same, ended by models with `end_at_rest` when the depth is known, where that and the outcome are those of a whole run; otherwise as it is.

@@ -22,8 +22,7 @@ use crate::{
 
 pub use choice::{ChosenModel, DEFAULT_MODEL, choose, default_model};
 pub use label::label;
-pub use recommend::recommend;
-pub use recommend::{Choice, Recommendation};
+pub use recommend::{Choice, Recommendation, outside, recommend};
 pub use unread::why_unread;
 
 pub use crate::solver::{

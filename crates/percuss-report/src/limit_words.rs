@@ -1,7 +1,7 @@
 //! A ballistic limit in words: the one to use, and the axisymmetric one.
 
 use percuss::{
-    limit::{LimitRange, Limits},
+    limit::{Bracket, LimitRange, Limits, ModelLimit},
     units::significant,
 };
 
@@ -10,7 +10,10 @@ use crate::result_rows::with_uncertainty;
 /// The limit to use, and how far to trust it; the range of all where no model is recommended.
 pub fn limit_headline(limits: &Limits) -> Option<String> {
     let Some(choice) = limits.recommended.first() else {
-        return limits.range.map(|range| unrecommended(limits, &range));
+        return match &limits.range {
+            Some(range) => Some(unrecommended(limits, range)),
+            None => extrapolated(limits),
+        };
     };
     let line = match limits.results.iter().find(|l| l.model == choice.model) {
         Some(entry) => {
@@ -28,7 +31,7 @@ pub fn limit_headline(limits: &Limits) -> Option<String> {
             };
             format!(
                 "Ballistic limit {} m/s ({}){error}{}",
-                significant(value, 4),
+                limit_of(entry, value),
                 choice.model,
                 from_measured(limits, value)
             )
@@ -44,37 +47,80 @@ pub fn limit_headline(limits: &Limits) -> Option<String> {
 /// The limits of models of which none is recommended.
 fn unrecommended(limits: &Limits, range: &LimitRange) -> String {
     let [low, high] = [range.lowest_m_s, range.highest_m_s].map(|limit| significant(limit, 4));
-    let mut found = (limits.results.iter()).filter(|entry| entry.ballistic_limit_m_s.is_some());
-    match (found.next(), range.models) {
+    let mut found = limits.results.iter();
+    match (
+        found.find(|entry| entry.ballistic_limit_m_s == Some(range.lowest_m_s)),
+        range.models,
+    ) {
         (Some(entry), 1) => {
             let error = entry.expected_error.as_ref();
             format!(
-                "Ballistic limit {low} m/s ({}), model error {}{}",
+                "Ballistic limit {} m/s ({}), model error {}{}",
+                limit_of(entry, range.lowest_m_s),
                 entry.model,
                 error.map_or_else(|| "not known".to_owned(), |e| e.errors.describe()),
                 from_measured(limits, range.lowest_m_s)
             )
         }
+        (None, 1) => format!(
+            "Axisymmetric ballistic limit {}: no other model is within its range of validity",
+            axisymmetric_limit(limits).unwrap_or(low)
+        ),
         _ => format!("Ballistic limit {low} to {high} m/s: no model is recommended"),
     }
 }
 
+/// Part of a limit from which on its bracket is shown in its place: between its ends the runs are undecided.
+const WIDE: f64 = 0.02;
+
+/// Limit of a model, or the bracket that it lies in where that is wide [m/s].
+fn limit_of(entry: &ModelLimit, limit: f64) -> String {
+    let wide = |bracket: &Bracket| bracket.perforated_m_s - bracket.stopped_m_s > WIDE * limit;
+    match entry.bracket.filter(wide) {
+        Some(bracket) => format!(
+            "between {} and {}",
+            significant(bracket.stopped_m_s, 4),
+            significant(bracket.perforated_m_s, 4)
+        ),
+        None => significant(limit, 4),
+    }
+}
+
+/// Limits of models that are all outside their ranges of validity, or of layers that cannot fail; `None` without any.
+fn extrapolated(limits: &Limits) -> Option<String> {
+    let (low, high) = extremes(limits)?;
+    let values = match low < high {
+        true => format!(
+            "limits from {} to {}",
+            significant(low, 4),
+            significant(high, 4)
+        ),
+        false => format!("a limit of {}", significant(low, 4)),
+    };
+    Some(format!(
+        "No ballistic limit is predicted: the models give {values} m/s outside their ranges of validity"
+    ))
+}
+
 /// What stands in place of an error that is not known: the range of all limits.
 fn unknown_error(limits: &Limits) -> String {
-    let values = limits.results.iter().filter_map(|l| l.ballistic_limit_m_s);
-    let axisymmetric = limits.axisymmetric.as_ref();
-    let values = values.chain(axisymmetric.and_then(|limit| limit.ballistic_limit_m_s));
-    let (low, high) = values.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), value| {
-        (low.min(value), high.max(value))
-    });
-    if high <= low {
+    let Some((low, high)) = extremes(limits).filter(|(low, high)| low < high) else {
         return ", model error not known".to_owned();
-    }
+    };
     format!(
         ", model error not known: all models give {} to {} m/s",
         significant(low, 3),
         significant(high, 3)
     )
+}
+
+/// Lowest and highest limit of all models, the axisymmetric one included [m/s].
+fn extremes(limits: &Limits) -> Option<(f64, f64)> {
+    let values = limits.results.iter().filter_map(|l| l.ballistic_limit_m_s);
+    let axisymmetric = limits.axisymmetric.as_ref();
+    let values = values.chain(axisymmetric.and_then(|limit| limit.ballistic_limit_m_s));
+    let pairs = values.map(|value| (value, value));
+    pairs.reduce(|(low, high), (value, _)| (low.min(value), high.max(value)))
 }
 
 /// Difference from the measured limit in words; empty without one.

@@ -6,15 +6,13 @@ use crate::{
     Error, Scenario, axisymmetric,
     model::{Control, Model, run},
     outcome::RunResult,
-    richardson::{CREDIBLE_ORDERS, OnMesh, Trend, extrapolate, trend},
+    richardson::{CREDIBLE_ORDERS, OnMesh, SAFETY, Trend, extrapolate, trend},
     summary::result_number,
     units::{ResultUnit, significant},
 };
 
 /// Factor between the numbers of elements of two meshes.
 pub const REFINEMENT: u32 = 2;
-/// Factor of safety of a grid-convergence index over three or more meshes \[roache1994\].
-const SAFETY: f64 = 1.25;
 /// Spread of the finest meshes, as a part of the value, below which nobody asks for an order.
 const AGREEMENT: f64 = 1e-3;
 /// Part of the finest value below which an extrapolated one is no result but the mesh.
@@ -127,9 +125,12 @@ impl ConvergenceStatus {
             coarse.value - fine.value,
         ];
         let largest = differences.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-        // A value of 0 on the finest mesh has no fractions: the coarsest of the three then.
-        let whole = Some(fine.value).filter(|value| *value != 0.0);
-        let spread = largest / whole.unwrap_or(coarse.value).abs();
+        // A value of 0 on the finest mesh has no fractions: the larger of the other two then.
+        let whole = match fine.value == 0.0 {
+            true => coarse.value.abs().max(medium.value.abs()),
+            false => fine.value.abs(),
+        };
+        let spread = largest / whole;
         let order = match trend([*coarse, *medium, *fine]) {
             Trend::Exact => return Some(Self::Exact),
             Trend::Diverging => return Some(Self::Diverging { spread }),
@@ -137,7 +138,10 @@ impl ConvergenceStatus {
             Trend::Monotone { order } => order,
         };
         let richardson = extrapolate(*medium, *fine, order);
-        let limit = richardson / fine.value;
+        let limit = match fine.value == 0.0 {
+            true => 0.0,
+            false => richardson / fine.value,
+        };
         if limit.abs() < VANISHING {
             return Some(Self::Vanishing { order, limit });
         }

@@ -3,7 +3,7 @@
 use crate::{
     Scenario,
     limit_error::expected_error,
-    model::{Choice, Control, Model, fast_models},
+    model::{self, Choice, Control, Model, fast_models},
     outcome::{BandQuantity, Outcome, RunResult},
     problem::RearFaceCondition,
     regime::Regime,
@@ -46,7 +46,7 @@ fn results_before_axisymmetric(
             return None;
         }
         Choice::of(model, scenario, &regime)?;
-        let found = model.run(scenario, &mut Control::default()).ok()?;
+        let found = model::run(model, scenario, &mut Control::default()).ok()?;
         let is_judged = expected_error(model, scenario, scenario.impact_velocity).is_some();
         let choice = first_choice(model, scenario, &regime, is_judged)?;
         comes_first(scenario, is_judged).then_some((choice.model, found))

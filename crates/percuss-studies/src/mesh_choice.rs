@@ -5,7 +5,7 @@ use crate::{
     axisymmetric::main_number,
     model::{Control, Model, run},
     outcome::{BandQuantity, Detail, RunResult},
-    richardson::{CREDIBLE_ORDERS, OnMesh, Trend, extrapolate, trend},
+    richardson::{CREDIBLE_ORDERS, OnMesh, SAFETY, Trend, extrapolate, trend},
     units::significant,
 };
 
@@ -17,8 +17,6 @@ const REFINEMENT: f64 = 2.0;
 const MESHES: i32 = 5;
 /// Meshes that an estimate takes.
 const FEWEST: usize = 3;
-/// Factor of safety of an error by an observed order \[roache1994\].
-const SAFETY: f64 = 1.25;
 /// Order where differences shrink faster than the schemes can: that of a front.
 const CAUTIOUS_ORDER: f64 = 1.0;
 

@@ -166,8 +166,8 @@ pub enum QuantityError {
         /// What is due, with an example and the units allowed.
         expected: String,
     },
-    /// The number is infinite or too large for a 64-bit float.
-    #[error("`{text}` is not a finite number\n{expected}")]
+    /// The number is infinite, or too large or too small for a 64-bit float.
+    #[error("`{text}` is beyond the range of 64-bit floats\n{expected}")]
     NotFinite {
         /// The text found.
         text: String,
@@ -237,6 +237,14 @@ pub fn split_number(text: &str) -> Option<(f64, &str)> {
             let number = text[..cut].parse::<f64>().ok()?;
             Some((number, text[cut..].trim()))
         })
+}
+
+/// Whether a number that is written with digits other than 0 is too small for a 64-bit float.
+fn is_lost(text: &str, number: f64) -> bool {
+    let digits = text.split(['e', 'E']).next().unwrap_or(text);
+    let written = digits.split(|c: char| c.is_alphabetic()).next();
+    let has_digit = written.is_some_and(|digits| digits.contains(|c| ('1'..='9').contains(&c)));
+    number == 0.0 && has_digit
 }
 
 /// The units of the dimension whose definition has this name in the schema of case files, such as `Length`.
@@ -334,7 +342,7 @@ impl<D: Dimension> FromStr for Quantity<D> {
             });
         };
         let si = number * unit.factor + unit.offset;
-        if !si.is_finite() {
+        if !si.is_finite() || is_lost(text, number) {
             return Err(QuantityError::NotFinite {
                 text: shorten(text),
                 expected: expected::<D>(),

@@ -44,7 +44,11 @@ fn says_what_is_wrong() {
     assert!(message("4.8 kg").starts_with("`kg` is a unit of mass, but a length is due here"));
     assert!(message("3 ells").starts_with("`ells` is not a known unit"));
     assert!(message("nan mm").starts_with("`nan mm` is not a number with a unit"));
-    assert!(message("1e999 mm").starts_with("`1e999 mm` is not a finite number"));
+    for text in ["1e999 mm", "-1.5e-400 mm"] {
+        let said = format!("`{text}` is beyond the range of 64-bit floats");
+        assert!(message(text).starts_with(&said));
+    }
+    assert_eq!("0.0e-400 mm".parse::<Length>().unwrap().si(), 0.0);
     assert!(message("4,8 mm").starts_with("the number of `4,8 mm` has a comma"));
     assert!(message("4.8 MM").contains("did you mean `mm`?"));
     assert!(message("").starts_with("`` is not a number"));

@@ -1,13 +1,14 @@
 //! Bodies that are not at the temperature their material was measured at.
 
 use super::ValidityDomain;
-use crate::{material::Material, scenario::Scenario, units::Temperature};
+use crate::{
+    material::Material,
+    scenario::{Scenario, is_room_temperature},
+    units::Temperature,
+};
 
 /// Plastic strain that any impact reaches.
 const REACHED_STRAIN: f64 = 0.1;
-
-/// Difference from the temperature of a material's record that counts as none [K]: rooms differ by as much.
-const ROOM: f64 = 5.0;
 
 /// Why a model cannot take a body at its temperature, if it cannot.
 pub(super) fn reason(validity: &ValidityDomain, scenario: &Scenario) -> Option<String> {
@@ -27,7 +28,7 @@ fn of_body(
     temperature: f64,
 ) -> Option<String> {
     let room = material.room_temperature;
-    if (temperature - room.si()).abs() <= ROOM {
+    if is_room_temperature(temperature, material) {
         return None;
     }
     let shown = Temperature::new(temperature);

@@ -1,6 +1,6 @@
 //! Case files: reading, checks, and conversion to a scenario; errors name the place.
 
-use std::path::Path;
+use std::{collections::BTreeMap, path::Path};
 
 use super::{Case, load_materials, measured_curves::measured_curves, resolve::resolve};
 use crate::{
@@ -77,6 +77,7 @@ pub(super) fn scenario_of_models(document: &Document) -> Result<Scenario, Error>
 pub(super) fn library_of(case: &Case, document: &Document) -> Result<Library, Error> {
     let mut library = Library::built_in().clone();
     library.add(&case.materials, &format!("{} (this case)", document.name));
+    let mut given: BTreeMap<String, &Path> = BTreeMap::new();
     for (i, relative) in case.material_files.iter().enumerate() {
         let refuse = |message: &str, help: &str| {
             Diagnostic::at(&format!("material_files.{i}"), message, help)
@@ -110,6 +111,16 @@ pub(super) fn library_of(case: &Case, document: &Document) -> Result<Library, Er
             let diagnostic = Diagnostic::at(&format!("materials.{id}"), message, help);
             return Err(document.place(diagnostic.of_material()).into());
         }
+        if let Some((id, first)) = table.keys().find_map(|id| given.get_key_value(id)) {
+            let message = format!(
+                "the material `{id}` is given by the files `{}` and `{}`",
+                first.display(),
+                relative.display()
+            );
+            let help = "rename or remove one of the two";
+            return Err(document.place(refuse(&message, help).of_material()).into());
+        }
+        given.extend(table.keys().map(|id| (id.clone(), relative.as_path())));
         library.add(&table, &relative.display().to_string());
     }
     Ok(library)

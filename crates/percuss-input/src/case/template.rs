@@ -181,6 +181,11 @@ impl Template {
         }
     }
 
+    /// Whether two keys name one number, such as one by the id and one by an alias of a material.
+    pub fn is_same_number(&self, one: &str, other: &str) -> bool {
+        self.key_of_record(one) == self.key_of_record(other)
+    }
+
     /// The material of a key, if there is such a record and no part of the case is made of it: then no change of it has an effect.
     pub fn unused_material<'a>(&self, key: &'a str) -> Option<&'a str> {
         let (name, _) = material_of(key)?;
@@ -293,7 +298,10 @@ fn put(table: &mut Table, key: &str, value: Value) -> Result<(), String> {
                 .or_insert_with(|| Value::Table(Table::new())),
             Some(Value::Array(items)) => {
                 let count = items.len();
-                let item = part.parse::<usize>().ok().and_then(|i| items.get_mut(i));
+                // One number has one key: `00` and `+0` are none.
+                let index = part.parse::<usize>().ok();
+                let index = index.filter(|index| index.to_string() == *part);
+                let item = index.and_then(|i| items.get_mut(i));
                 item.ok_or_else(|| {
                     format!(
                         "the case has no `{here}`: the list has {count} entries, counted from 0"

@@ -2,14 +2,12 @@
 
 use super::{opening::is_open, solver::Grid};
 use crate::{
-    outcome::{Outcome, Termination},
+    outcome::{Outcome, REST_FRACTION, Termination},
     problem::RearFaceCondition,
     scenario::Scenario,
     solver::monitor::RunMonitor,
 };
 
-/// Part of the impact velocity below which a projectile counts as stopped.
-const REST_FRACTION: f64 = 0.01;
 /// Part of the initial energy that may still dissipate in a window of a run that is over.
 const QUIET_FRACTION: f64 = 1e-3;
 /// Part of the impact velocity by which a projectile that has come through may still slow in a window.
@@ -106,8 +104,11 @@ impl Window {
         {
             return Outcome::OutOfTime;
         }
+        // A light target that is free to fly is carried along.
         if ratio < -REST_FRACTION {
             Outcome::Rebounded
+        } else if ratio > REST_FRACTION {
+            Outcome::Separated
         } else {
             Outcome::AtRest
         }

@@ -10,6 +10,7 @@ use crate::{
     outcome::{Outcome, RunResult},
     problem::{Nose, RearFaceCondition},
     regime::is_thinner,
+    scenario::each_once,
     solver::Particle,
     validity::THROUGH_FIXED_FACE,
 };
@@ -31,12 +32,8 @@ fn is_plate(scenario: &Scenario) -> bool {
 
 /// Ids of the case's materials of a kind, each once.
 fn unlike(scenario: &Scenario, is_one: fn(&Material) -> bool) -> Vec<&str> {
-    let mut ids: Vec<&str> = materials(scenario)
-        .filter(|(material, _)| is_one(material))
-        .map(|(_, id)| id)
-        .collect();
-    ids.dedup();
-    ids
+    let unlike = materials(scenario).filter(|(material, _)| is_one(material));
+    each_once(unlike.map(|(_, id)| id))
 }
 
 /// Ids of the target's materials without data of failure; empty where an option of `axi` makes them fail.
@@ -44,13 +41,9 @@ pub fn layers_that_cannot_fail(scenario: &Scenario) -> Vec<&str> {
     if scenario.options.axi.can_fail(None) {
         return Vec::new();
     }
-    let mut ids: Vec<&str> = materials(scenario)
-        .skip(1)
-        .filter(|(material, _)| material.damage.is_none())
-        .map(|(_, id)| id)
-        .collect();
-    ids.dedup();
-    ids
+    let layers = materials(scenario).skip(1);
+    let without = layers.filter(|(material, _)| material.damage.is_none());
+    each_once(without.map(|(_, id)| id))
 }
 
 pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String> {
@@ -169,10 +162,23 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
         };
         warnings.extend(reached.warnings(&what, material, heated));
     }
-    if run.grid.accumulated.lost != [0, 0] {
+    let lost = run
+        .grid
+        .accumulated
+        .lost
+        .iter()
+        .zip(["projectile", "target"]);
+    let lost: Vec<String> = lost
+        .filter(|(count, _)| **count > 0)
+        .map(|(count, body)| match count {
+            1 => format!("1 particle of the {body}"),
+            _ => format!("{count} particles of the {body}"),
+        })
+        .collect();
+    if !lost.is_empty() {
         warnings.push(format!(
-            "{} particles of the projectile and {} of the target eroded or left the modelled space; the balances include them",
-            run.grid.accumulated.lost[0], run.grid.accumulated.lost[1]
+            "{} eroded or left the modelled space; the balances include them",
+            lost.join(" and ")
         ));
     }
     warnings

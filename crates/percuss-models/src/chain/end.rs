@@ -7,14 +7,12 @@ use super::{
     state::{BoundaryCondition, State},
 };
 use crate::{
-    outcome::{Outcome, Termination},
+    outcome::{Outcome, REST_FRACTION, Termination},
     scenario::{Scenario, TargetBody},
     solver::monitor::RunMonitor,
     units::significant,
 };
 
-/// Section of the impact velocity below which a projectile counts as stopped.
-const REST_FRACTION: f64 = 0.01;
 /// Section of the initial energy that may still dissipate in a window of a run whose bodies touch.
 const QUIET_FRACTION: f64 = 1e-6;
 /// The same after separation: vibrations then change neither depth nor velocity.

@@ -123,7 +123,6 @@ impl Model for Chain {
                         TargetKind::SemiInfinite,
                         TargetKind::ThickPlate,
                         TargetKind::Plate,
-                        TargetKind::Layered,
                         TargetKind::RigidWall,
                         TargetKind::ConstantPressure,
                     ],

@@ -9,8 +9,6 @@ use crate::{
     },
 };
 
-/// Part of the impact velocity below which a projectile counts as stopped.
-pub(super) const REST_FRACTION: f64 = 0.01;
 /// Part of the first time step below which cells are crushed to nothing: a strain of about 4.6.
 const COLLAPSED_STEP: f64 = 1e-2;
 

@@ -48,7 +48,7 @@ impl Choice {
 }
 
 /// The range of a model that a case is outside of, in words.
-fn outside(model: &dyn Model, scenario: &Scenario) -> Option<String> {
+pub fn outside(model: &dyn Model, scenario: &Scenario) -> Option<String> {
     let mut ranges = model.validity().ranges.iter();
     ranges.find_map(|range| range.diagnostic(scenario))
 }

@@ -9,15 +9,12 @@ use super::{
 use crate::{
     history::{ElementState, Sample},
     material::Reached,
-    outcome::{Detail, Outcome, RunResult, Termination},
+    outcome::{Detail, Outcome, REST_FRACTION, RunResult, Termination},
     problem::RearFaceCondition,
     solver::{interface::Solver, monitor::RunMonitor},
     units::significant,
     validity::THROUGH_FIXED_FACE,
 };
-
-/// Part of the impact velocity below which a projectile counts as stopped.
-const REST_FRACTION: f64 = 0.01;
 
 /// Mean velocity of the projectile along the normal of the face [m/s].
 fn mean_velocity<B: Bonded<D>, const D: usize>(run: &Impact<'_, B, D>) -> f64 {

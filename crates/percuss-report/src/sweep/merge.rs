@@ -30,7 +30,7 @@ use super::{block_file, is_sweep_file, manifest::Manifest, merge_csv, parts::Par
 use crate::{ReportError, replace_file::replace_file_durably};
 
 /// Joins the blocks of folders that hold parts of one sweep into one file, in the order of the runs: CSV where its name ends with
-/// `.csv`, otherwise Parquet with a row group per block. Columns are in the units of a system where one is given. The file depends on the sweep alone, not on who computed which block. Returns the number of rows.
+/// `.csv`, Parquet with a row group per block where it ends with `.parquet`. Columns are in the units of a system where one is given. The file depends on the sweep alone, not on who computed which block. Returns the number of rows.
 ///
 /// # Errors
 /// [`ReportError::Sweep`] when a folder holds another sweep or a block is missing; [`ReportError::Write`]; [`ReportError::Table`].
@@ -55,6 +55,13 @@ pub fn merge(
         });
     }
     let files: Vec<PathBuf> = files.into_iter().flatten().collect();
+    if !is_csv(out) && !has_extension(out, "parquet") {
+        return Err(ReportError::Sweep {
+            path: out.to_owned(),
+            reason: "the name of a file of rows ends with `.parquet` or `.csv`".to_owned(),
+            remedy: "give `--out` such a name".to_owned(),
+        });
+    }
     let name = out.file_name().unwrap_or_default().to_string_lossy();
     let folder = match out.parent() {
         Some(folder) if folder != Path::new("") => folder,
@@ -84,8 +91,12 @@ pub fn merge(
 
 /// Whether a file is to have comma-separated values, by its name.
 fn is_csv(out: &Path) -> bool {
-    out.extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
+    has_extension(out, "csv")
+}
+
+fn has_extension(path: &Path, extension: &str) -> bool {
+    path.extension()
+        .is_some_and(|own| own.eq_ignore_ascii_case(extension))
 }
 
 /// Name and factor of a column of numbers in a unit system; `None` where it stays as it is.

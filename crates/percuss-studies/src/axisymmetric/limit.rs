@@ -1,6 +1,6 @@
 //! Limit of a number on successively finer meshes, with its discretisation uncertainty.
 
-use crate::richardson::{OnMesh, Trend, extrapolate, trend};
+use crate::richardson::{OnMesh, SAFETY, Trend, extrapolate, trend};
 
 /// Observed orders that are taken for those of convergence. The scheme is of second order where nothing breaks; three meshes whose sizes
 /// differ by a factor of two find more by chance.
@@ -10,8 +10,6 @@ pub const HIGHEST_ORDER: f64 = 2.0;
 /// Lowest order of the error of a single mesh, and of an extrapolation: at lower orders it makes depths worse, by up to 60 % in the cases of
 /// the benchmark.
 const FIRST: f64 = 1.0;
-/// Factor of safety of an extrapolation from three meshes: that of the grid convergence index \[roache1994\].
-const SAFETY: f64 = 1.25;
 /// Error of an observed order by rounding.
 const ROUNDING: f64 = 1e-6;
 /// Least uncertainty, as a part of what the impact changed.

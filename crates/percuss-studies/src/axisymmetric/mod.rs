@@ -32,10 +32,12 @@ use serde::Serialize;
 use crate::{
     Error, Scenario, axi,
     jobs::Jobs,
+    limit::with_free_rear_face,
     limit_choice::{another_outcome, another_residual_velocity},
-    model::{self, Control, Model},
+    model::{self, Choice, Control, Model, fast_models},
     outcome::{BandQuantity, Outcome, RunResult},
     problem::RearFaceCondition,
+    regime::Regime,
     richardson::OnMesh,
     scenario::TargetBody,
     solver::frames::Frame,
@@ -219,6 +221,12 @@ pub(crate) fn on_mesh(
 }
 
 impl AxisymmetricAnswer {
+    /// Why there is no value, or none to use, or which meshes are missing.
+    pub fn remark(&self) -> Option<&str> {
+        let said = self.reason.as_ref().or(self.doubt.as_ref());
+        said.or(self.note.as_ref()).map(String::as_str)
+    }
+
     /// No answer, with the reason.
     pub fn without(reference: ReferenceMeshes, reason: impl Into<String>) -> Self {
         Self {
@@ -330,23 +338,55 @@ fn doubt(
             other.describe()
         ));
     }
+    if let Some(free) = with_free_rear_face(scenario)
+        && let Some((model, Outcome::Perforated)) = another_outcome(&free, outcome)
+    {
+        return Some(format!(
+            "the rear face is fixed, the default; with a free one `{model}` perforates the plate: give `target.back_face`"
+        ));
+    }
     if outcome == Outcome::Perforated
         && let Some(doubt) = doubt_without_failure(scenario, value, uncertainty)
     {
         return Some(doubt);
     }
-    let reason = match (value, uncertainty) {
-        (_, None) => "the meshes differ in their outcome",
+    let mut reason = match (value, uncertainty) {
+        (_, None) => "the meshes differ in their outcome".to_owned(),
         (value, Some(error)) if error > value.abs() => {
-            "the error of the meshes is larger than the number"
+            "the error of the meshes is larger than the number".to_owned()
         }
+        (value, Some(error)) if error > LARGEST_ERROR * value.abs() => format!(
+            "the error of the meshes is {} % of the number",
+            significant(100.0 * error / value.abs(), 2)
+        ),
         _ => return None,
     };
-    Some(match meshes {
-        ReferenceMeshes::Standard => {
-            format!("{reason}; `percuss run --reference fine` takes finer ones")
-        }
-        ReferenceMeshes::Fine => reason.to_owned(),
+    if meshes == ReferenceMeshes::Standard {
+        reason += "; `percuss run --reference fine` takes finer ones";
+    }
+    let quantity = main_number(scenario, outcome);
+    if let Some((model, value)) = another_choice(scenario, quantity) {
+        reason += &format!(
+            "; `{model}`, a first choice here, gives {} {}",
+            significant(value, 3),
+            quantity.unit()
+        );
+    }
+    Some(reason)
+}
+
+/// Part of a number from which on the error of its meshes makes it one not to rely on.
+const LARGEST_ERROR: f64 = 0.3;
+
+/// A quick model that is a first choice for a case within its ranges of validity: its name and its main number, in the unit of its name.
+fn another_choice(scenario: &Scenario, quantity: BandQuantity) -> Option<(&'static str, f64)> {
+    let regime = Regime::of(scenario);
+    fast_models().into_iter().find_map(|model| {
+        let choice = Choice::within(model, scenario, &regime)?;
+        let found = model::run(model, scenario, &mut Control::default()).ok()?;
+        let is_alike = main_number(scenario, found.outcome) == quantity;
+        let value = quantity.in_unit(found.measurable(quantity)?);
+        is_alike.then_some((choice.model, value))
     })
 }
 

@@ -87,9 +87,9 @@ impl Answer {
         let answer = request.answer(scenario, report).map_err(silent)?;
         let finest = answer.meshes.last();
         let numbers = finest.and_then(|mesh| Some((mesh, limit(&answer, quantity)?)));
-        let Some((mesh, (value, uncertainty))) = numbers else {
-            let why = answer.reason.or(answer.note);
-            return Err(none(quantity, why.as_deref()));
+        let usable = numbers.filter(|_| answer.doubt.is_none());
+        let Some((mesh, (value, uncertainty))) = usable else {
+            return Err(none(quantity, answer.remark()));
         };
         let finest = measurable(quantity, mesh.value(quantity)).unwrap_or(value);
         Ok(Self {

@@ -68,7 +68,7 @@ pub use record::{CalibratedRecord, records};
 pub use sampler::{Sample, Sampling};
 pub use stage::{Stage, Stages};
 
-use crate::{Error, inputs::column_name};
+use crate::{Error, inputs::column_name, scenario::each_once};
 
 /// How a problem is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -303,14 +303,13 @@ fn solve(
 fn not_blind(problem: &Problem) -> Option<String> {
     let values = problem.observations.iter().filter(|o| o.held_out);
     let curves = problem.curves().filter(|curve| curve.held_out);
-    let mut known: Vec<&str> = values
+    let fitted_to = values
         .map(|value| &value.sources)
         .chain(curves.map(|curve| &curve.curve.sources))
         .flatten()
         .filter(|source| problem.model.validity().is_fitted_to(source))
-        .map(String::as_str)
-        .collect();
-    known.dedup();
+        .map(String::as_str);
+    let known = each_once(fitted_to);
     (!known.is_empty()).then(|| {
         format!(
             "the model `{}` itself was fitted to {} or chosen on it: keeping that out is no blind test",

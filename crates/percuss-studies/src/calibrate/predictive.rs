@@ -108,7 +108,7 @@ impl Quality {
 /// States of the sample that are put through the model.
 pub(super) fn draws(sample: Option<&Sample>) -> Vec<&[f64]> {
     sample.map_or_else(Vec::new, |sample| {
-        let every = (sample.kept().count() / DRAWS).max(1);
+        let every = sample.kept().count().div_ceil(DRAWS).max(1);
         sample.kept().step_by(every).collect()
     })
 }

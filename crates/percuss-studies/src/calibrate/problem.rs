@@ -93,6 +93,13 @@ impl Problem {
             let of_curves = observations.curves.iter().map(|set| &set.template);
             let (mut unused, mut is_used) = (None, false);
             for template in of_values.chain(of_curves) {
+                let is_same =
+                    |other: &&Fitted| template.is_same_number(other.key(), parameter.key());
+                if let Some(other) = fitted[..i].iter().find(is_same) {
+                    let message =
+                        format!("`{}` and `{}` are one number", other.key(), parameter.key());
+                    return Err(parameter.error(&message, "remove one of the two"));
+                }
                 parameter.check(template)?;
                 match template.unused_material(parameter.key()) {
                     Some(id) => unused = Some(id),

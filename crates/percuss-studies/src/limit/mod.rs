@@ -209,7 +209,8 @@ pub struct Limits {
     /// The axisymmetric limit, where it contradicts a recommended one [m/s]; not in JSON.
     #[serde(skip)]
     pub contradiction: Option<f64>,
-    /// Range of the limits that models predict, the axisymmetric one included; null where none does.
+    /// Range of the limits that models predict within their ranges of validity, the axisymmetric one of layers that can fail included; null where
+    /// none does.
     pub range: Option<LimitRange>,
     /// Limit by the axisymmetric model in the limit of fine meshes; null where it was not asked for.
     pub axisymmetric: Option<AxisymmetricLimit>,
@@ -280,7 +281,7 @@ fn searched(
         let expected = limit.map(|limit| limit_error::expected_error(*model, scenario, limit));
         entry.expected_error = expected.flatten();
     }
-    let of_models = LimitRange::of(&results, None);
+    let of_models = LimitRange::of(results.iter().filter_map(|entry| entry.ballistic_limit_m_s));
     let axisymmetric = search
         .axisymmetric
         .map(|request| {
@@ -294,6 +295,10 @@ fn searched(
         .transpose()?;
     let (recommended, note, contradiction) =
         recommended::recommended(models, scenario, &results, axisymmetric.as_ref());
+    let reliable = recommended::within_range(models, scenario, &results).chain(
+        recommended::of_failing_layers(scenario, axisymmetric.as_ref()),
+    );
+    let range = LimitRange::of(reliable);
     Ok(Limits {
         case: scenario.name.clone(),
         percuss_version: env!("CARGO_PKG_VERSION"),
@@ -302,7 +307,7 @@ fn searched(
         recommended,
         note,
         contradiction,
-        range: LimitRange::of(&results, axisymmetric.as_ref()),
+        range,
         axisymmetric,
         experiments: ExperimentRecord::all(scenario),
         results,
@@ -310,15 +315,13 @@ fn searched(
 }
 
 impl LimitRange {
-    fn of(results: &[ModelLimit], axisymmetric: Option<&AxisymmetricLimit>) -> Option<Self> {
-        let found = || {
-            let of_models = results.iter().filter_map(|entry| entry.ballistic_limit_m_s);
-            of_models.chain(axisymmetric.and_then(|limit| limit.ballistic_limit_m_s))
-        };
+    fn of(limits: impl Iterator<Item = f64>) -> Option<Self> {
+        let found: Vec<f64> = limits.collect();
+        let values = || found.iter().copied();
         Some(Self {
-            lowest_m_s: found().reduce(f64::min)?,
-            highest_m_s: found().reduce(f64::max)?,
-            models: found().count(),
+            lowest_m_s: values().reduce(f64::min)?,
+            highest_m_s: values().reduce(f64::max)?,
+            models: found.len(),
         })
     }
 }

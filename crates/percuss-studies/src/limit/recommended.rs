@@ -6,7 +6,7 @@ use crate::{
     axisymmetric::MODEL,
     compare::Choice,
     limit_choice::{comes_first, first_choice},
-    model::Model,
+    model::{Model, outside},
     outcome::BandQuantity,
     regime::Regime,
     units::significant,
@@ -29,10 +29,7 @@ pub(super) fn recommended(
     axisymmetric: Option<&AxisymmetricLimit>,
 ) -> (Vec<Choice>, Option<String>, Option<f64>) {
     let (choices, note) = of_models(models, scenario, results);
-    let value = axisymmetric.and_then(|limit| limit.ballistic_limit_m_s);
-    let cannot_fail = !axi::layers_that_cannot_fail(scenario).is_empty();
-    // Without failure a plate only stretches and thins: the limit is too high.
-    let Some(value) = value.filter(|_| !cannot_fail) else {
+    let Some(value) = of_failing_layers(scenario, axisymmetric) else {
         return (choices, note, None);
     };
     let judged = choices
@@ -64,6 +61,29 @@ pub(super) fn recommended(
     );
     let notes = note.into_iter().chain([contradiction]);
     (choices, Some(Vec::from_iter(notes).join("; ")), Some(value))
+}
+
+/// Axisymmetric limit of layers that can fail [m/s]: without failure a plate only stretches and thins, and the limit is too high.
+pub(super) fn of_failing_layers(
+    scenario: &Scenario,
+    axisymmetric: Option<&AxisymmetricLimit>,
+) -> Option<f64> {
+    let value = axisymmetric?.ballistic_limit_m_s?;
+    let can_fail = axi::layers_that_cannot_fail(scenario).is_empty();
+    can_fail.then_some(value)
+}
+
+/// Limits of the models that are within their ranges of validity there, or whose error is known [m/s].
+pub(super) fn within_range(
+    models: &[&dyn Model],
+    scenario: &Scenario,
+    results: &[ModelLimit],
+) -> impl Iterator<Item = f64> {
+    models.iter().zip(results).filter_map(|(model, entry)| {
+        let limit = entry.ballistic_limit_m_s?;
+        let is_within = || outside(*model, &scenario.at_impact_velocity(limit)).is_none();
+        (entry.expected_error.is_some() || is_within()).then_some(limit)
+    })
 }
 
 /// Whether the error of a model's limit is known.
@@ -126,6 +146,11 @@ fn of_models(
             )
         })
         .collect();
+    if within_range(models, scenario, results).next().is_none() {
+        let note =
+            format!("no model that gives a limit is within its range of validity here{unproven}");
+        return (Vec::new(), Some(note));
+    }
     // Columns by two methods are one model: their agreement says nothing.
     let is_column = |name: &str| ["chain", "fdm"].contains(&name);
     let columns = found.iter().filter(|(model, _)| is_column(model.name()));

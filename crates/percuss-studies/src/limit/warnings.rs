@@ -19,10 +19,12 @@ pub(super) fn undecided(bracket: &[Sample<LimitRun>], place: &str) -> Option<Str
     let Passage::Undecided(reason) = &first.passage else {
         return None;
     };
+    let velocities = match inside.len() {
+        1 => format!("at {}", velocity(first)),
+        _ => format!("from {} to {}", velocity(first), velocity(last)),
+    };
     Some(format!(
-        "from {} to {} m/s{place} the model does not decide: {reason}",
-        velocity(first),
-        velocity(last)
+        "{velocities} m/s{place} the model does not decide: {reason}"
     ))
 }
 

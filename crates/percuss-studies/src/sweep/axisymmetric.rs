@@ -68,17 +68,20 @@ impl Sweep {
             inputs, scenario, ..
         } = self.run(index);
         let without = |reason| AxisymmetricAnswer::without(ReferenceMeshes::default(), reason);
-        let (found, record) = match scenario {
-            Err(reason) => (without(reason), None),
+        let (found, own) = match scenario {
+            Err(reason) => (without(reason.clone()), Err(reason)),
             Ok(scenario) => {
                 let found = Request::default().answer(&scenario, progress)?;
-                let own = model::run(self.model, &scenario, &mut Control::default()).ok();
-                (found, own.map(|own| ResultRecord::new(&scenario, &own)))
+                let own = model::run(self.model, &scenario, &mut Control::default());
+                let own = own.map(|own| ResultRecord::new(&scenario, &own));
+                (found, own.map_err(|error| error.to_string()))
             }
         };
+        let remark = found.remark().or(own.as_ref().err().map(String::as_str));
+        let remark = remark.unwrap_or_default().to_owned();
         let model_value = found
             .quantity
-            .zip(record)
+            .zip(own.ok())
             .and_then(|(quantity, record)| record.value(quantity));
         Ok(AxisymmetricRow {
             index,
@@ -88,7 +91,7 @@ impl Sweep {
             value: found.value,
             uncertainty: found.uncertainty,
             order: found.order,
-            remark: found.reason.or(found.note).unwrap_or_default(),
+            remark,
         })
     }
 }

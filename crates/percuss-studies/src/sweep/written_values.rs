@@ -7,6 +7,18 @@ pub(crate) fn check_values(axes: &[Axis], template: &Template, check: &mut Check
     // A list of materials may name any of them.
     let materials_vary = axes.iter().any(|axis| axis.key.ends_with(".material"));
     for (i, axis) in axes.iter().enumerate() {
+        // The same key twice has been found before.
+        let is_same =
+            |other: &&Axis| other.key != axis.key && template.is_same_number(&other.key, &axis.key);
+        if let Some(other) = axes[..i].iter().find(is_same) {
+            let message = format!("`{}` and `{}` are one number", other.key, axis.key);
+            check.fail(
+                &format!("parameter.{i}.key"),
+                message,
+                "remove one of the two",
+            );
+            return;
+        }
         for (key, value) in &axis.samples {
             let written = axis.written(*value);
             let Err(diagnostics) = template.scenario(&[(&axis.key, written.clone())]) else {

@@ -22,6 +22,7 @@ use crate::{
     bisection::bisect,
     cost,
     jobs::Jobs,
+    outcome::BandQuantity,
     statistics::{mean, sorted, variance},
     summary::ResultNumber,
     sweep::SweepRun,
@@ -99,6 +100,13 @@ pub fn correct(
             number.label
         )));
     }
+    // What is stopped lies on no line through what perforates.
+    let is_stopped = |draw: &Draw| draw.value(number) == Some(0.0);
+    if main == BandQuantity::ResidualVelocity && found.draws.iter().any(is_stopped) {
+        return Ok(Err(
+            "some draws are stopped and others perforate: a straight line from model to `axi` holds for one of them only".to_owned(),
+        ));
+    }
     let jobs = Jobs::new(vec![1.0; draws.len()], progress);
     let memory = Request::default().memory(&study.scenario);
     let answers: Vec<Result<AxisymmetricAnswer, Error>> = cost::within_memory(memory, || {
@@ -117,13 +125,14 @@ pub fn correct(
     let mut reason = String::new();
     for ((value, _), answer) in draws.iter().zip(answers) {
         let answer = answer?;
-        match answer.value.filter(|_| answer.quantity == Some(main)) {
+        let is_usable = answer.quantity == Some(main) && answer.doubt.is_none();
+        match answer.value.filter(|_| is_usable) {
             Some(own) => both.push(AxisymmetricPoint {
                 model_value: *value,
                 value: own,
                 uncertainty: answer.uncertainty,
             }),
-            None => reason = answer.reason.unwrap_or_default(),
+            None => reason = answer.remark().unwrap_or_default().to_owned(),
         }
     }
     if both.len() < FEWEST_POINTS {

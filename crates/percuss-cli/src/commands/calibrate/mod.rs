@@ -5,6 +5,7 @@ mod table;
 mod values;
 
 use std::{
+    fs,
     ops::ControlFlow,
     path::PathBuf,
     sync::{Mutex, PoisonError},
@@ -210,7 +211,17 @@ impl Calibrate {
             library.add(&case::load_materials(path)?, &path.display().to_string());
         }
         let mut observations = Observations::default();
-        for path in &self.cases {
+        let file = |path: &PathBuf| fs::canonicalize(path).unwrap_or_else(|_| path.clone());
+        for (i, path) in self.cases.iter().enumerate() {
+            if self.cases[..i]
+                .iter()
+                .any(|other| file(other) == file(path))
+            {
+                return Err(Failure::Usage {
+                    message: format!("the case `{}` is named twice", path.display()),
+                    help: "its values would count twice: name it once".to_owned(),
+                });
+            }
             observations.add_case(&virtual_files.read(path)?)?;
         }
         if !self.data.is_empty() {

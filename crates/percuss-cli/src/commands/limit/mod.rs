@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, builder::PossibleValuesParser};
 use percuss::{
     Scenario,
-    axisymmetric::{ReferenceMeshes, Request},
+    axisymmetric::{self, ReferenceMeshes, Request},
     case,
     limit::{self, LimitOutcome, Limits, Observer, Range, Search, Tolerance},
     model::{Estimate, MODELS},
@@ -175,7 +175,11 @@ impl Limit {
         self.print(&found)?;
         match &found.case {
             Some((_, limits)) if found.tests.is_none() && no_model_applies(limits) => {
-                Err(Failure::NoResult(table::reasons(limits)))
+                let mut reasons = table::reasons(limits);
+                let axisymmetric = limits.axisymmetric.as_ref();
+                let reason = axisymmetric.and_then(|limit| limit.reason.as_ref());
+                reasons.extend(reason.map(|reason| format!("{}: {reason}", axisymmetric::MODEL)));
+                Err(Failure::NoResult(reasons))
             }
             _ => Ok(()),
         }

@@ -23,7 +23,7 @@ pub fn text(limits: &Limits) -> String {
     lines.extend(limits.note.clone());
     if let Some(range) = limits.range.filter(|range| range.models > 1) {
         lines.push(format!(
-            "range of {} models that predict a limit: {} to {} m/s",
+            "range of {} models within their ranges of validity: {} to {} m/s",
             range.models,
             significant(range.lowest_m_s, 4),
             significant(range.highest_m_s, 4)

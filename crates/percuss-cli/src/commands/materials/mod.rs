@@ -6,7 +6,11 @@ mod import;
 mod list;
 mod show;
 
-use std::{fs, io, path::PathBuf};
+use std::{
+    fs,
+    io::{self, Write},
+    path::{Path, PathBuf},
+};
 
 use clap::{Args, Subcommand, builder::PossibleValuesParser};
 use percuss::{
@@ -14,6 +18,7 @@ use percuss::{
     material::{Filter, Library, Material, MaterialEntry, MaterialGroup},
     units::{Length, shorten},
 };
+use percuss_report::{ReportError, replace_file::replace_file_durably};
 use serde::Serialize;
 
 use crate::{
@@ -200,16 +205,30 @@ fn write_file(out: Option<&PathBuf>, text: &str) -> Result<Vec<PathBuf>, Failure
             help: "without `--out` the text is printed".to_owned(),
         });
     }
-    fs::write(out, text).map_err(|error| Failure::Write {
-        path: out.clone(),
+    let name = out.file_name().unwrap_or_default().to_string_lossy();
+    let folder = match out.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let written = replace_file_durably(folder, &name, |file| file.write_all(text.as_bytes()));
+    written.map_err(|error| match error {
+        ReportError::Write { source, .. } => unwritten(out, &source),
+        other => other.into(),
+    })?;
+    Ok(vec![out.clone()])
+}
+
+/// Why a file was not written.
+fn unwritten(out: &Path, error: &io::Error) -> Failure {
+    Failure::Write {
+        path: out.to_owned(),
         help: match error.kind() {
             io::ErrorKind::NotFound => "make its folder first, or give another file".to_owned(),
             io::ErrorKind::IsADirectory => "give the name of a file in it".to_owned(),
             _ => String::new(),
         },
         reason: error.to_string(),
-    })?;
-    Ok(vec![out.clone()])
+    }
 }
 
 /// A range of Brinell hardness.

@@ -12,14 +12,12 @@ use super::{
 use crate::{
     history::{ElementState, Profile, Sample},
     material::Reached,
-    outcome::{Detail, Outcome, PLANE_IMPACT, RunResult, Termination},
+    outcome::{Detail, Outcome, PLANE_IMPACT, REST_FRACTION, RunResult, Termination},
     scenario::Scenario,
     solver::monitor::RunMonitor,
     units::significant,
 };
 
-/// Part of the impact velocity below which a projectile counts as stopped.
-const REST_FRACTION: f64 = 0.01;
 /// Part of its depth by which a floor may still sink in a window of a run that is over.
 const QUIET_FRACTION: f64 = 1e-6;
 
@@ -30,6 +28,8 @@ pub(super) struct Window {
     /// When it is over at the earliest.
     end: f64,
     depth: f64,
+    /// Momentum of the projectile when the window began.
+    momentum: f64,
     pub(super) touched: bool,
 }
 
@@ -57,6 +57,8 @@ impl Window {
         self.depth = state.floor.depth;
         self.touched = false;
         let (mass, momentum) = state.rod.motion();
+        let change = momentum - self.momentum;
+        self.momentum = momentum;
         if sinks {
             return None;
         }
@@ -71,10 +73,13 @@ impl Window {
             return None;
         }
         // What is left may creep forward behind a floor that it never reaches: that is no motion to wait for.
-        let still = (momentum / mass).abs() <= REST_FRACTION * scenario.impact_velocity;
+        let is_slow =
+            |momentum: f64| (momentum / mass).abs() <= REST_FRACTION * scenario.impact_velocity;
+        let still = is_slow(momentum);
         match touched {
             false => (momentum <= 0.0 || still).then_some(Termination::Parted),
-            true => still.then_some(Termination::Quiescent),
+            // A projectile that is still being pushed back has not got its rebound speed yet.
+            true => (still && is_slow(change)).then_some(Termination::Quiescent),
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use super::run::PlanarImpact;
 use crate::{
-    fdm::{audit::REST_FRACTION, warnings::of_materials},
+    fdm::warnings::of_materials,
     material::impedance_match,
-    outcome::{Detail, Outcome, RunResult, Termination},
+    outcome::{Detail, Outcome, REST_FRACTION, RunResult, Termination},
     scenario::TargetBody,
     units::significant,
 };

@@ -2,8 +2,8 @@
 
 use super::run::Rod;
 use crate::{
-    fdm::{audit::REST_FRACTION, warnings::of_materials},
-    outcome::{Outcome, RunResult, Termination},
+    fdm::warnings::of_materials,
+    outcome::{Outcome, REST_FRACTION, RunResult, Termination},
     scenario::TargetBody,
     solver::monitor::RunMonitor,
     units::significant,

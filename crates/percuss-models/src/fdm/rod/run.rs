@@ -7,13 +7,13 @@ use crate::{
     Error, Scenario,
     error::NumericalError,
     fdm::{
-        audit::{self, AUDIT, REST_FRACTION},
+        audit::{self, AUDIT},
         grid::{BoundaryCondition, Cells, Grid},
     },
     history::{PROFILE_ELEMENTS, Profile, Sample},
     ledger::{EnergyLedger, MomentumLedger},
     options::{FdmOptions, RodOptions},
-    outcome::{Outcome, RunResult, Termination},
+    outcome::{Outcome, REST_FRACTION, RunResult, Termination},
     solver::{
         Control,
         archive::Archive,

@@ -325,10 +325,11 @@ impl Collision<'_> {
         let mut warnings = vec![
             "each ball is one elastic particle: its strength, its vibrations and its damage are not described".to_owned(),
         ];
-        let part = self.state.largest_approach / self.projectile().radius;
+        let radii = self.state.balls.iter().map(|ball| ball.radius);
+        let part = self.state.largest_approach / radii.fold(f64::INFINITY, f64::min);
         if part > SMALL {
             warnings.push(format!(
-                "the balls approach by {:.0} % of the projectile's radius: Hertz's theory takes contacts that are small beside it; lower \
+                "the balls approach by {:.0} % of the smaller one's radius: Hertz's theory takes contacts that are small beside it; lower \
                  `projectile.impact_velocity`",
                 100.0 * part
             ));
