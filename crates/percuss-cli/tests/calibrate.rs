@@ -6,6 +6,7 @@ use tempfile::TempDir;
 
 use crate::support::{Said, flat, folder_with, json, percuss};
 
+const CASE: &str = include_str!("../../../cases/taylor-copper-wilkins/scenario.toml");
 const YIELD: &str = "materials.ofhc-copper-johnson-cook.strength.johnson_cook.a=20..300 MPa";
 const WILKINS: [&str; 8] = [
     "calibrate",
@@ -497,4 +498,33 @@ fn a_wrong_curve_is_refused_with_its_place() {
         words.contains("no gauge named `rod`") && words.contains("allowed: bar"),
         "{words}"
     );
+}
+
+#[test]
+fn what_would_count_twice_is_refused() {
+    let folder = folder_with(&[("scenario.toml", CASE)]);
+    let fit = "materials.copper.strength.power_law.coefficient=200..700 MPa";
+    let start = [
+        "calibrate",
+        "scenario.toml",
+        "--model",
+        "taylor",
+        "--least-squares",
+    ];
+    for (more, words) in [
+        (&["./scenario.toml", "--fit", fit][..], "is named twice"),
+        (
+            &[
+                "--fit",
+                fit,
+                "--fit",
+                "materials.copper-woodward.strength.power_law.coefficient=200..700 MPa",
+            ],
+            "are one number",
+        ),
+    ] {
+        let said = percuss(folder.path(), [&start[..], more].concat());
+        assert_eq!(said.code, 2, "{}", said.stderr);
+        assert!(flat(&said.stderr).contains(words), "{}", said.stderr);
+    }
 }

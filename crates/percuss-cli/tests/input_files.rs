@@ -99,6 +99,28 @@ fn a_pipe_is_no_file_to_write_materials_to() {
     }
 }
 
+/// Rows are joined into a file of rows, and into nothing else.
+#[test]
+fn a_pipe_is_no_file_to_merge_rows_into() {
+    let folder = folder();
+    make_pipe(&folder.path().join("pipe.csv"));
+    std::fs::write(folder.path().join("notes.txt"), "kept").unwrap();
+    let sweep = "base = 'scenario.toml'\nmodel = 'chain'\ndesign = 'grid'\n[[parameter]]\nkey = 'projectile.impact_velocity'\nvalues = ['20 m/s']\n";
+    std::fs::write(folder.path().join("sweep.toml"), sweep).unwrap();
+    let (code, said) = ended(folder.path(), &["sweep", "sweep.toml", "--out", "rows"]);
+    assert_eq!(code, 0, "{said}");
+    for (file, code, words) in [
+        ("pipe.csv", 4, "it is not a regular file"),
+        ("notes.txt", 2, "`.parquet` or `.csv`"),
+    ] {
+        let (found, said) = ended(folder.path(), &["sweep", "merge", "rows", "--out", file]);
+        assert_eq!(found, code, "{said}");
+        assert!(flat(&said).contains(words), "{said}");
+    }
+    let notes = std::fs::read_to_string(folder.path().join("notes.txt")).unwrap();
+    assert_eq!(notes, "kept");
+}
+
 /// A result takes the place of what has its name, whole: a pipe, a link, or an older result that a failure leaves as it is.
 #[test]
 fn results_take_the_place_of_pipes_and_links() {

@@ -47,7 +47,7 @@ fn the_table_has_limits_brackets_and_fits_and_says_who_has_none() {
         "the rear face of the plate is taken as free: the case gives no `target.back_face`",
         "power_balance ★",
         "★ recommended: power_balance: ",
-        "models that predict a limit: ",
+        "models within their ranges of validity: ",
         "no estimated model error of chain, fdm, plugging, awerbuch_bodner, power_balance: fewer than 5 published limits",
         "residual velocity above a given limit (an input, not a prediction of the limit)",
         "without a limit",

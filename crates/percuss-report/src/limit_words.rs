@@ -66,6 +66,8 @@ fn unrecommended(limits: &Limits, range: &LimitRange) -> String {
             "Axisymmetric ballistic limit {}: no other model is within its range of validity",
             axisymmetric_limit(limits).unwrap_or(low)
         ),
+        // Columns by two methods are one model.
+        _ if low == high => format!("Ballistic limit {low} m/s: no model is recommended"),
         _ => format!("Ballistic limit {low} to {high} m/s: no model is recommended"),
     }
 }
@@ -73,10 +75,11 @@ fn unrecommended(limits: &Limits, range: &LimitRange) -> String {
 /// Part of a limit from which on its bracket is shown in its place: between its ends the runs are undecided.
 const WIDE: f64 = 0.02;
 
-/// Limit of a model, or the bracket that it lies in where that is wide [m/s].
+/// Limit of a model, or the bracket that it lies in where that is wide and the model states none [m/s].
 fn limit_of(entry: &ModelLimit, limit: f64) -> String {
     let wide = |bracket: &Bracket| bracket.perforated_m_s - bracket.stopped_m_s > WIDE * limit;
-    match entry.bracket.filter(wide) {
+    let is_stated = entry.stated_limit_m_s == Some(limit);
+    match entry.bracket.filter(wide).filter(|_| !is_stated) {
         Some(bracket) => format!(
             "between {} and {}",
             significant(bracket.stopped_m_s, 4),

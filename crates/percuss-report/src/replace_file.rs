@@ -71,13 +71,6 @@ fn replace(
 ) -> Result<PathBuf, ReportError> {
     static COUNTER: AtomicU64 = AtomicU64::new(0);
     let path = folder.join(name);
-    // A pipe or a device would become a file.
-    if fs::metadata(&path).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
-        return Err(ReportError::Write {
-            path,
-            source: io::Error::other("it is not a regular file"),
-        });
-    }
     let number = COUNTER.fetch_add(1, Ordering::Relaxed);
     let temporary = folder.join(format!(".{name}.{}-{number}.tmp", process::id()));
     // Its content is on the disk before its name: a loss of power leaves the former file or this one.

@@ -1,12 +1,13 @@
 //! Which ballistic limit comes first: that of a model, or the axisymmetric one.
 
 use crate::{
-    Scenario,
+    Scenario, chain,
     limit_error::expected_error,
     model::{self, Choice, Control, Model, fast_models},
     outcome::{BandQuantity, Outcome, RunResult},
     problem::RearFaceCondition,
     regime::Regime,
+    scenario::TargetBody,
     validity::NoseKind,
 };
 
@@ -75,6 +76,24 @@ pub(crate) fn another_residual_velocity(scenario: &Scenario) -> Option<(&'static
     results_before_axisymmetric(scenario)
         .filter(|(_, found)| found.outcome == Outcome::Perforated)
         .find_map(|(model, found)| Some((model, found.residual_velocity?)))
+}
+
+/// The case as its ballistic limit is asked for: the rear face of a plate is free unless the case gives another one. `None`
+/// where nothing changes.
+pub fn with_free_rear_face(scenario: &Scenario) -> Option<Scenario> {
+    let mut free = scenario.clone();
+    let TargetBody::Layers {
+        layers, back_face, ..
+    } = &mut free.target
+    else {
+        return None;
+    };
+    if scenario.given.rear_face || layers.last()?.thickness.is_none() {
+        return None;
+    }
+    *back_face = RearFaceCondition::Free;
+    chain::choose_target_resistance(&mut free);
+    Some(free)
 }
 
 #[cfg(test)]

@@ -126,3 +126,19 @@ fn where_nothing_comes_to_rest_the_option_is_refused() {
         assert!(error.contains(said), "{error}");
     }
 }
+
+#[test]
+fn a_rod_that_is_still_pushed_back_is_not_at_rest() {
+    // At some of these speeds the rod has no momentum at the moment at which a window of the run ends.
+    for velocity in [103.0, 196.0, 199.0, 200.0, 202.0, 205.0] {
+        let text = format!(
+            "projectile = {{ material = 'copper', length = '12.74 mm', diameter = '4.8 mm', impact_velocity = '{velocity} m/s' }}\n\
+             target = {{ material = 'aluminium-2024-t351', thickness = 'semi-infinite' }}"
+        );
+        let result = run("chain", &case::load_str("back", &text).unwrap());
+        assert_eq!(result.outcome, Outcome::Rebounded, "{velocity}");
+        // From 12.6 m/s at 103 m/s to 16.2 m/s at 205 m/s; it was below 1 % of the impact velocity.
+        let rebound = -result.residual_velocity.unwrap();
+        assert!((12.0..17.0).contains(&rebound), "{velocity}: {rebound}");
+    }
+}

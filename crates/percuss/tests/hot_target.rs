@@ -213,3 +213,20 @@ fn the_estimate_of_the_model_error_is_of_cold_targets() {
     assert!(estimate("").is_some());
     assert!(estimate(", temperature = '700 K'").is_none());
 }
+
+#[test]
+fn a_room_of_another_record_is_no_heat() {
+    // Records are measured between 293 and 300 K.
+    for (temperature, is_heated) in [
+        ("20 celsius", false),
+        ("25 celsius", false),
+        ("40 celsius", true),
+    ] {
+        let text = format!(
+            "projectile = {{ material = 'copper', length = '12 mm', diameter = '4 mm', impact_velocity = '200 m/s' }}\n\
+             target = {{ material = 'etp-copper-johnson-cook', thickness = '25 mm', temperature = '{temperature}' }}"
+        );
+        let scenario = case::load_str("room", &text).unwrap();
+        assert_eq!(scenario.is_heated(), is_heated, "{temperature}");
+    }
+}

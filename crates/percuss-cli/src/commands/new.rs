@@ -1,7 +1,7 @@
 //! `percuss new`: a starter case.
 
 use std::{
-    fs::OpenOptions,
+    fs::{self, OpenOptions},
     io::{self, Write},
     path::{Path, PathBuf},
 };
@@ -119,7 +119,12 @@ impl New {
             options.create_new(true);
         }
         let text = self.template.text();
-        options.open(path)?.write_all(text.as_bytes())
+        let written = options.open(path)?.write_all(text.as_bytes());
+        if written.is_err() && !self.force {
+            // Half a case would stand in the way of the next attempt.
+            let _ = fs::remove_file(path);
+        }
+        written
     }
 }
 

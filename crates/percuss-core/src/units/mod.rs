@@ -240,11 +240,9 @@ pub fn split_number(text: &str) -> Option<(f64, &str)> {
 }
 
 /// Whether a number that is written with digits other than 0 is too small for a 64-bit float.
-fn is_lost(text: &str, number: f64) -> bool {
-    let digits = text.split(['e', 'E']).next().unwrap_or(text);
-    let written = digits.split(|c: char| c.is_alphabetic()).next();
-    let has_digit = written.is_some_and(|digits| digits.contains(|c| ('1'..='9').contains(&c)));
-    number == 0.0 && has_digit
+fn is_lost(written: &str, number: f64) -> bool {
+    let mut digits = written.chars().take_while(|c| !"eE".contains(*c));
+    number == 0.0 && digits.any(|c| ('1'..='9').contains(&c))
 }
 
 /// The units of the dimension whose definition has this name in the schema of case files, such as `Length`.
@@ -311,6 +309,7 @@ impl<D: Dimension> FromStr for Quantity<D> {
                 expected: expected::<D>(),
             });
         };
+        let written = text.strip_suffix(unit).unwrap_or(text);
         if unit.is_empty() {
             return Err(QuantityError::NoUnit {
                 text: shorten(text),
@@ -342,7 +341,7 @@ impl<D: Dimension> FromStr for Quantity<D> {
             });
         };
         let si = number * unit.factor + unit.offset;
-        if !si.is_finite() || is_lost(text, number) {
+        if !si.is_finite() || is_lost(written, number) {
             return Err(QuantityError::NotFinite {
                 text: shorten(text),
                 expected: expected::<D>(),

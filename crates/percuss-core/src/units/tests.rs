@@ -49,6 +49,7 @@ fn says_what_is_wrong() {
         assert!(message(text).starts_with(&said));
     }
     assert_eq!("0.0e-400 mm".parse::<Length>().unwrap().si(), 0.0);
+    assert_eq!("0.0 1/K".parse::<InverseTemperature>().unwrap().si(), 0.0);
     assert!(message("4,8 mm").starts_with("the number of `4,8 mm` has a comma"));
     assert!(message("4.8 MM").contains("did you mean `mm`?"));
     assert!(message("").starts_with("`` is not a number"));

@@ -158,13 +158,13 @@ mod tests {
         )
     }
 
-    /// The folder of a case with its files, of which the second one overrides a record of the first.
+    /// The folder of a case with its files.
     fn folder(own: &str) -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
         fs::create_dir(folder.path().join("lib")).unwrap();
         write("case.toml", &format!("{CASE}{own}"));
-        let first = format!("[rod]\n{}\n[plate]\n{}", record("7850"), record("1000"));
+        let first = format!("[rod]\n{}\n[foil]\n{}", record("7850"), record("1000"));
         write("lib/a.toml", &first);
         write(
             "lib/b.toml",

@@ -32,7 +32,7 @@ pub struct Choice {
 impl Choice {
     /// The choice of a model for a case of a regime, if it is a first choice there.
     pub fn of(model: &dyn Model, scenario: &Scenario, regime: &Regime) -> Option<Self> {
-        let mut choices = model.validity().first_choice.iter();
+        let mut choices = model.validity_for(scenario).first_choice.iter();
         let fitting = choices.find(|choice| choice.fits(scenario, regime))?;
         Some(Self {
             model: model.name(),
@@ -49,7 +49,7 @@ impl Choice {
 
 /// The range of a model that a case is outside of, in words.
 pub fn outside(model: &dyn Model, scenario: &Scenario) -> Option<String> {
-    let mut ranges = model.validity().ranges.iter();
+    let mut ranges = model.validity_for(scenario).ranges.iter();
     ranges.find_map(|range| range.diagnostic(scenario))
 }
 

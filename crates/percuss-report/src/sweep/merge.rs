@@ -55,11 +55,11 @@ pub fn merge(
         });
     }
     let files: Vec<PathBuf> = files.into_iter().flatten().collect();
-    if !is_csv(out) && !has_extension(out, "parquet") {
-        return Err(ReportError::Sweep {
+    // A pipe or a device would become a file.
+    if fs::metadata(out).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+        return Err(ReportError::Write {
             path: out.to_owned(),
-            reason: "the name of a file of rows ends with `.parquet` or `.csv`".to_owned(),
-            remedy: "give `--out` such a name".to_owned(),
+            source: io::Error::other("it is not a regular file"),
         });
     }
     let name = out.file_name().unwrap_or_default().to_string_lossy();
@@ -72,6 +72,13 @@ pub fn merge(
             path: out.to_owned(),
             reason: "this is a file of a folder that is merged".to_owned(),
             remedy: "give `--out` another name".to_owned(),
+        });
+    }
+    if !is_csv(out) && !has_extension(out, "parquet") {
+        return Err(ReportError::Sweep {
+            path: out.to_owned(),
+            reason: "the name of a file of rows ends with `.parquet` or `.csv`".to_owned(),
+            remedy: "give `--out` such a name".to_owned(),
         });
     }
     fs::create_dir_all(folder).map_err(|source| ReportError::Write {

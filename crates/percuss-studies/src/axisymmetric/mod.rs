@@ -32,8 +32,7 @@ use serde::Serialize;
 use crate::{
     Error, Scenario, axi,
     jobs::Jobs,
-    limit::with_free_rear_face,
-    limit_choice::{another_outcome, another_residual_velocity},
+    limit_choice::{another_outcome, another_residual_velocity, with_free_rear_face},
     model::{self, Choice, Control, Model, fast_models},
     outcome::{BandQuantity, Outcome, RunResult},
     problem::RearFaceCondition,

@@ -182,12 +182,71 @@ fn meshes_that_disagree_on_perforation_have_no_uncertainty() {
     let all = of(vec![mesh(4, Outcome::Perforated, None, 50.0), through]);
     assert!(all.uncertainty.unwrap() >= 20.0);
     assert_eq!(all.depth_of_penetration_mm, None);
-    assert_eq!(all.doubt, None);
+    assert!(all.doubt.unwrap().contains("50 % of the number"));
     // Meshes of one outcome that are far apart.
     let depth = |cells, depth| mesh(cells, Outcome::AtRest, Some(depth), 0.0);
     let apart = of(vec![depth(3, 6.1), depth(4, 5.9), depth(6, 20.1)]);
     assert!(apart.uncertainty.unwrap() > apart.value.unwrap());
     assert!(apart.doubt.unwrap().contains("larger"));
+    let rough = of(vec![depth(3, 5.0), depth(4, 6.0), depth(6, 8.0)]);
+    assert!(
+        rough.doubt.as_ref().unwrap().contains(" % of the number"),
+        "{rough:?}"
+    );
+    assert_eq!(rough.remark(), rough.doubt.as_deref());
+    assert_eq!(
+        of(vec![depth(3, 5.0), depth(4, 5.1), depth(6, 5.2)]).doubt,
+        None
+    );
+}
+
+/// Blunt steel on a steel plate, with its rear face where it is given.
+fn blunt(velocity: f64, plate: &str) -> Scenario {
+    let text = format!(
+        "projectile = {{ material = 'tool-steel-hrc53', mass = '197 g', diameter = '20 mm', impact_velocity = '{velocity} m/s' }}\n\
+         target = {{ material = 'weldox-460-e', thickness = '12 mm'{plate} }}"
+    );
+    case::load_str("blunt", &text).unwrap()
+}
+
+#[test]
+fn what_another_first_choice_perforates_is_doubted() {
+    let doubt = |scenario: &Scenario, outcome, velocity| {
+        let mesh = |cells_per_radius| MeshResult {
+            cells_per_radius,
+            outcome,
+            depth_of_penetration_mm: Some(4.0),
+            residual_velocity_m_s: Some(velocity),
+            projectile_final_length_mm: None,
+            steps: None,
+            energy_residual: None,
+        };
+        let meshes = vec![mesh(4), mesh(6)];
+        AxisymmetricAnswer::of(scenario, ReferenceMeshes::Standard, meshes, &[]).doubt
+    };
+    let held = doubt(&blunt(300.0, ""), Outcome::Rebounded, -2.0).unwrap();
+    assert!(
+        held.contains("`power_balance` perforates the plate"),
+        "{held}"
+    );
+    // Who writes that it is fixed means it; slow impacts are stopped either way.
+    let fixed = blunt(300.0, ", back_face = 'fixed'");
+    assert_eq!(doubt(&fixed, Outcome::Rebounded, -2.0), None);
+    assert_eq!(doubt(&blunt(100.0, ""), Outcome::Rebounded, -2.0), None);
+    // A plate that cannot fail takes too much energy.
+    let mut free = blunt(300.0, ", back_face = 'free'");
+    assert_eq!(doubt(&free, Outcome::Perforated, 150.0), None);
+    let TargetBody::Layers { layers, .. } = &mut free.target else {
+        panic!("no plate");
+    };
+    let mut ductile = (*layers[0].material).clone();
+    ductile.damage = None;
+    layers[0].material = ductile.into();
+    let said = doubt(&free, Outcome::Perforated, 150.0).unwrap();
+    assert!(
+        said.contains("has no `damage`") && said.contains("`power_balance`"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -40,10 +40,11 @@ use crate::{
 };
 
 pub use crate::compare::{Observer, Progress};
+pub use crate::limit_choice::with_free_rear_face;
 pub use crate::limit_error::ExpectedLimitError;
 pub use axisymmetric::{AxisymmetricLimit, LimitOnMesh};
 pub use fit::{LambertJonasFit, fit_lambert_jonas, fit_lambert_jonas_from};
-pub use rear_face::{RearFace, with_free_rear_face};
+pub use rear_face::RearFace;
 
 /// Range of impact velocities [m/s], ends included.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use crate::{
-    chain,
     problem::RearFaceCondition,
     scenario::{Scenario, TargetBody},
 };
@@ -49,22 +48,4 @@ impl RearFace {
             (false, None) => None,
         }
     }
-}
-
-/// The case as its ballistic limit is asked for: the rear face of a plate is free unless the case gives another one. `None`
-/// where nothing changes.
-pub fn with_free_rear_face(scenario: &Scenario) -> Option<Scenario> {
-    let mut free = scenario.clone();
-    let TargetBody::Layers {
-        layers, back_face, ..
-    } = &mut free.target
-    else {
-        return None;
-    };
-    if scenario.given.rear_face || layers.last()?.thickness.is_none() {
-        return None;
-    }
-    *back_face = RearFaceCondition::Free;
-    chain::choose_target_resistance(&mut free);
-    Some(free)
 }
