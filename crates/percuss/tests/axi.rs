@@ -243,3 +243,18 @@ fn a_nose_has_its_own_mass_on_every_mesh() {
         }
     }
 }
+
+/// The disc flies ahead of the rod, or with it: nothing of it is open.
+#[test]
+fn a_free_disc_that_is_carried_along_is_not_perforated() {
+    for radius in [10.0, 15.0] {
+        let text = format!(
+            "projectile = {{ material = 'tool-steel-hrc53', length = '40 mm', diameter = '10 mm', impact_velocity = '50 m/s' }}\n\
+             target = {{ material = 'tool-steel-hrc53', thickness = '4 mm', back_face = 'free' }}\n\
+             axi = {{ edge = 'free', target_radius = '{radius} mm', cells_per_radius = 4 }}"
+        );
+        let result = run(&text);
+        assert_eq!(result.outcome, Outcome::Separated, "{radius}");
+        assert!(result.residual_velocity.unwrap() > 0.0);
+    }
+}

@@ -2,6 +2,7 @@
 
 use super::{opening::is_open, solver::Grid};
 use crate::{
+    options::Edge,
     outcome::{Outcome, REST_FRACTION, Termination},
     problem::RearFaceCondition,
     scenario::Scenario,
@@ -45,8 +46,11 @@ impl Window {
         // Metal that flies along in front of it may seem to connect a projectile with the target.
         let has_passed = grid.accumulated.passed > PASSED_FRACTION * rod.mass;
         if has_passed && scenario.rear_face() == Some(RearFaceCondition::Free) {
-            self.open = true;
-            return Some(Termination::LeftTarget);
+            self.open = is_held(scenario) || self.sees_opening(grid, scenario);
+            return Some(match self.open {
+                true => Termination::LeftTarget,
+                false => Termination::Parted,
+            });
         }
         if grid.time < self.start + 2.0 * rod.length / rod.material.bar_wave_speed() {
             return None;
@@ -66,7 +70,7 @@ impl Window {
         self.speed = speed;
         // A plate that dishes carries the crater floor past its original rear face and may throw the projectile back.
         if self.perforated && speed > 0.0 {
-            self.open = has_opened(grid, 0.5 * rod.diameter);
+            self.open = self.sees_opening(grid, scenario);
             if self.open {
                 return (slowing <= FREE_FRACTION).then_some(Termination::LeftTarget);
             }
@@ -78,6 +82,15 @@ impl Window {
         } else {
             Termination::Quiescent
         })
+    }
+
+    /// Whether every layer of the target is open: what has been carried out of the modelled space whole is as it was when it was last seen.
+    fn sees_opening(&self, grid: &Grid, scenario: &Scenario) -> bool {
+        let is_gone = grid.sums[1..].iter().all(|layer| layer.mass <= 0.0);
+        match is_gone && !is_held(scenario) {
+            true => self.open,
+            false => has_opened(grid, 0.5 * scenario.projectile.diameter),
+        }
     }
 
     /// Outcome of a run that was ended for a reason.
@@ -113,6 +126,11 @@ impl Window {
             Outcome::AtRest
         }
     }
+}
+
+/// Whether the edge of the target holds it.
+fn is_held(scenario: &Scenario) -> bool {
+    scenario.options.axi.edge != Some(Edge::Free)
 }
 
 /// Whether every layer of the target is open.

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use super::{body::Body, kernel::nearest, mesh::Mesh};
+use crate::solver::Particle;
 
 /// Radius beyond which material is the rest of a target, in radii of the projectile: a plug and petals are within it.
 const REST: f64 = 2.0;
@@ -12,15 +13,20 @@ const REACH: isize = 1;
 /// Whether a target is open: no sound material at the axis, or none that is connected to the rest. Particles that reach a common node move
 /// together: they are connected.
 pub(super) fn is_open(target: &Body, mesh: &Mesh, projectile_radius: f64) -> bool {
+    let is_left = |particle: &Particle| particle.mass > 0.0;
+    let place = |particle: Particle| {
+        let [column, row] = mesh.indices(particle.position);
+        (nearest(row).1, nearest(column).1)
+    };
+    // A target that is no wider has its rim for the rest.
+    let columns = target.particles().filter(is_left).map(|p| place(p).1);
     let rest = mesh.radial.index(REST * projectile_radius) as isize;
+    let rest = rest.min(columns.max().unwrap_or(0));
     // Nodes that are nearest to a sound particle, by row and column.
-    let mut places: HashSet<(isize, isize)> = target
-        .particles()
-        .filter(|particle| particle.mass > 0.0 && !particle.has_failed())
-        .map(|particle| {
-            let [column, row] = mesh.indices(particle.position);
-            (nearest(row).1, nearest(column).1)
-        })
+    let sound = target.particles().filter(is_left);
+    let mut places: HashSet<(isize, isize)> = sound
+        .filter(|particle| !particle.has_failed())
+        .map(place)
         .filter(|(_, column)| *column <= rest)
         .collect();
     let mut ahead: Vec<(isize, isize)> = places

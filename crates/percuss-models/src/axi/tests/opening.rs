@@ -5,8 +5,13 @@ use crate::{axi::opening::is_open, solver::Control};
 
 /// A plate of 30 by 12 cells, of which some particles have failed.
 fn plate(failed: impl Fn([f64; 2]) -> bool) -> Body {
+    disc(30.0, failed)
+}
+
+/// The same with another radius.
+fn disc(radius: f64, failed: impl Fn([f64; 2]) -> bool) -> Body {
     let law = Solid::elastic(7850.0, 200e9, 0.3).law();
-    let sections = rectangle((0.0, 30.0), (0.0, 12.0), 0.5);
+    let sections = rectangle((0.0, radius), (0.0, 12.0), 0.5);
     let mut body = body(law, sections, &|_| ([0.0; 2], [0.0; 4]));
     let mut particles: Vec<Particle> = body.particles().collect();
     for particle in &mut particles {
@@ -35,6 +40,11 @@ fn a_plate_is_open_where_a_band_cuts_it_through_or_nothing_is_left_at_the_axis()
     // A hole, with petals or without.
     assert!(open(|[r, _]| r < 3.0));
     assert!(!open(|[r, z]| r < 3.0 && z < 6.0));
+    // A disc of less than two radii is held together by its rim.
+    let open = |failed: fn([f64; 2]) -> bool| is_open(&disc(15.0, failed), &mesh, 9.0);
+    assert!(!open(|_| false) && open(|[r, _]| r < 3.0));
+    assert!(open(|[r, _]| (9.0..12.0).contains(&r)));
     // What is cut off beyond two radii of the projectile is no plug.
+    let open = |failed: fn([f64; 2]) -> bool| is_open(&plate(failed), &mesh, 9.0);
     assert!(!open(|[r, _]| (24.0..27.0).contains(&r)));
 }
