@@ -20,6 +20,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("rod", "fdm", COLUMN_WITHOUT_EROSION),
     ("planar impact with spall", "fdm", SPALL),
     ("plug that damage cuts out", "axi", CUT),
+    ("nose whose surface is followed", "axi", ROUND),
     ("lattice under a rigid nose", "particles", LATTICE),
     ("pieces of a lattice", "particles", PIECES),
     ("pieces at an angle", "particles", OBLIQUE),
@@ -44,6 +45,11 @@ const COLUMN_WITHOUT_EROSION: &str = r#"
 "#;
 const CUT: &str = r#"
     projectile = { material = "tool-steel-hrc53", length = "10 mm", diameter = "20 mm", impact_velocity = "500 m/s" }
+    target = { material = "weldox-460-e", thickness = "5 mm", back_face = "free" }
+    axi = { cells_per_radius = 4, target_radius = "30 mm" }
+"#;
+const ROUND: &str = r#"
+    projectile = { material = "tool-steel-hrc53", length = "20 mm", diameter = "20 mm", impact_velocity = "500 m/s", nose = "hemisphere" }
     target = { material = "weldox-460-e", thickness = "5 mm", back_face = "free" }
     axi = { cells_per_radius = 4, target_radius = "30 mm" }
 "#;

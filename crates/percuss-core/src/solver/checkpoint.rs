@@ -10,7 +10,7 @@ use crate::{Error, Scenario, scenario::Given};
 /// First bytes of every checkpoint, by which a file is known as one.
 pub const CHECKPOINT_START: &[u8] = b"percuss checkpoint\n";
 /// Raised whenever the content changes its form.
-const FORMAT: u32 = 14;
+const FORMAT: u32 = 15;
 
 /// What a checkpoint says of itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -4,6 +4,7 @@ use super::{
     body::Body,
     field::{FORCE, Field, MASS, MOMENTUM, Node, VOLUME},
     mesh::Mesh,
+    surface::Surface,
 };
 
 /// How bodies meet.
@@ -21,11 +22,12 @@ const TOUCHING: f64 = 0.9;
 /// Least part of the cells behind an edge that its body is taken to fill: a straight edge on a column of nodes fills half.
 const EDGE: f64 = 0.4;
 
-/// Contact of all bodies: impulses that each takes from the others at its nodes in a step, before the boundary conditions. Returns the axial
-/// impulse from the first body on the others [N s].
+/// Contact of all bodies: impulses that each takes from the others at its nodes in a step, before the boundary conditions. The first body may
+/// have a surface that is followed. Returns the axial impulse from the first body on the others [N s].
 pub(super) fn exchange_contact_impulses(
     contact: Contact,
     bodies: &mut [Body],
+    surface: Option<&Surface>,
     mesh: &Mesh,
     time_step: f64,
 ) -> f64 {
@@ -38,7 +40,10 @@ pub(super) fn exchange_contact_impulses(
         let (before, after) = bodies.split_at_mut(second);
         for (index, first) in before.iter_mut().enumerate() {
             let (first, second) = (&mut first.field, &mut after[0].field);
-            let impulse = press(coefficient, first, second, mesh, time_step);
+            let impulse = match surface.filter(|_| index == 0) {
+                Some(surface) => surface.press(coefficient, first, second, mesh, time_step),
+                None => press(coefficient, first, second, mesh, time_step),
+            };
             if index == 0 {
                 passed += impulse;
             }
@@ -227,7 +232,7 @@ fn normal(
 
 impl Field {
     /// Velocity of a node after its forces and the contacts that are known [m/s].
-    fn pushed(&self, index: usize, time_step: f64) -> [f64; 2] {
+    pub(super) fn pushed(&self, index: usize, time_step: f64) -> [f64; 2] {
         pushed(&self.nodes[index], self.impulse[index], time_step)
     }
 }

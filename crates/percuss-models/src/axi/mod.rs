@@ -23,6 +23,7 @@ mod results;
 mod run;
 mod setup;
 mod solver;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod transfer;

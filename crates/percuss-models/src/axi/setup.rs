@@ -8,6 +8,7 @@ use super::{
     mesh::{Axis, Mesh},
     run::materials,
     solver::{Accumulators, DeferredWork, Grid},
+    surface::Surface,
 };
 use crate::{
     Error, Scenario,
@@ -212,6 +213,19 @@ fn nose_radius(nose: Nose, diameter: f64, behind: f64) -> f64 {
     }
 }
 
+/// Surface of a projectile that contact follows. A flat face has its normals from the nodes, what is taken out of a body leaves no surface
+/// behind, and what sticks needs none.
+fn surface(rod: &Rod, law: &Law, contact: Contact, mesh: &Mesh) -> Option<Surface> {
+    let slides = contact != Contact::Sticking;
+    let fails =
+        law.damage.is_some() || law.failure_strain.is_some() || law.spall_strength.is_some();
+    let stays = law.erosion_strain.is_none() && !(law.erode_failed && fails);
+    (rod.nose != Nose::Flat && slides && stays).then(|| {
+        let radius = |behind| nose_radius(rod.nose, rod.diameter, behind);
+        Surface::new(radius, rod.length, mesh.cell)
+    })
+}
+
 /// Builds the bodies of a case.
 ///
 /// # Errors
@@ -228,6 +242,11 @@ pub(super) fn build(
     let rod_law = law(&rod.material, scenario);
     let speed = scenario.impact_velocity;
     let particles = projectile(rod, &rod_law, filled, speed, control)?;
+    let contact = match options.contact() {
+        ContactKind::Sticking => Contact::Sticking,
+        ContactKind::Frictional => Contact::Frictional(options.friction()),
+    };
+    let surface = surface(rod, &rod_law, contact, &mesh);
     let mut bodies = vec![Body::set_up(rod_law, particles, control)?];
     let mut supports = vec![BoundaryConditions {
         wall: scenario.target == TargetBody::RigidWall,
@@ -291,10 +310,8 @@ pub(super) fn build(
     let mut solver = Grid {
         bodies,
         supports,
-        contact: match options.contact() {
-            ContactKind::Sticking => Contact::Sticking,
-            ContactKind::Frictional => Contact::Frictional(options.friction()),
-        },
+        contact,
+        surface,
         mesh,
         courant,
         limits,

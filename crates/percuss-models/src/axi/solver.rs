@@ -11,6 +11,7 @@ use super::{
     field::Field,
     mesh::Mesh,
     nodes::{RowSums, add_up, move_row},
+    surface::Surface,
 };
 use crate::{
     Error,
@@ -28,6 +29,8 @@ pub(super) struct Grid {
     pub(super) bodies: Vec<Body>,
     pub(super) supports: Vec<BoundaryConditions>,
     pub(super) contact: Contact,
+    /// Surface of the projectile where contact follows it: under a nose that is not flat.
+    pub(super) surface: Option<Surface>,
     pub(super) mesh: Mesh,
     pub(super) courant: f64,
     pub(super) limits: Limits,
@@ -93,6 +96,7 @@ impl Grid {
         archive.item(&mut self.sums)?;
         archive.item(&mut self.accumulated)?;
         archive.item(&mut self.deferred)?;
+        archive.item(&mut self.surface)?;
         for (body, supports) in self.bodies.iter_mut().zip(&mut self.supports) {
             let mut particles: Vec<Particle> = body.particles().collect();
             archive.item(&mut particles)?;
@@ -261,7 +265,9 @@ impl Grid {
         let (wave, speed) = (most(|s| s.wave_squared), most(|s| s.speed_squared));
         self.time_step = self.courant * self.mesh.cell / (wave + speed);
         let (time_step, mesh) = (self.time_step, self.mesh);
-        let passed = exchange_contact_impulses(self.contact, &mut self.bodies, &mesh, time_step);
+        let (contact, surface) = (self.contact, self.surface.as_ref());
+        let passed =
+            exchange_contact_impulses(contact, &mut self.bodies, surface, &mesh, time_step);
         let mut total = RowSums::default();
         for (body, supports) in self.bodies.iter_mut().zip(&self.supports) {
             let columns = body.field.columns;
@@ -305,6 +311,9 @@ impl Grid {
         self.deferred = deferred;
         for (body, supports) in self.bodies.iter().zip(&mut self.supports) {
             supports.follow(&body.field, time_step);
+        }
+        if let (Some(surface), Some(projectile)) = (&mut self.surface, self.bodies.first()) {
+            surface.follow(&projectile.field, &mesh, time_step);
         }
     }
 }

@@ -10,6 +10,7 @@ mod pressure_dependent;
 mod pressurised;
 mod rigid_motion;
 mod shell_collapse;
+mod surface;
 mod unresolved;
 mod wave_speed;
 
@@ -199,6 +200,7 @@ fn supported_at(
         bodies,
         supports,
         contact: Contact::Frictional(0.0),
+        surface: None,
         mesh: Mesh::even(cell),
         courant,
         limits: Limits {
