@@ -8,7 +8,7 @@ use super::{
     mesh::{Axis, Mesh},
     run::materials,
     solver::{Accumulators, DeferredWork, Grid},
-    surface::Surface,
+    surface::{STEP, Surface},
 };
 use crate::{
     Error, Scenario,
@@ -311,9 +311,9 @@ pub(super) fn build(
         bodies,
         supports,
         contact,
+        courant: courant * surface.as_ref().map_or(1.0, |_| STEP),
         surface,
         mesh,
-        courant,
         limits,
         step: 0,
         time: 0.0,
