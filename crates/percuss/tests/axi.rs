@@ -261,7 +261,7 @@ fn a_free_disc_that_is_carried_along_is_not_perforated() {
 
 #[test]
 fn the_resistance_to_a_smooth_nose_settles_with_the_mesh_and_contact_costs_little() {
-    // With normals from the nodes the slowing on 4 cells is 1.21 times that on 6, and a twelfth of the work is lost in contact.
+    // With normals from the nodes the slowing on 4 cells is 1.19 times that on 6, and 6 % of the work is lost in contact.
     let slowed = |cells: u32| {
         let result = axi(&format!(
             r#"

@@ -134,10 +134,11 @@ impl Model for Axi {
             rate: RATE,
         };
         let of_length = STEPS.0 + STEPS.1 * rod.length / rod.diameter;
-        let finer = AxiOptions::default().courant() / options.courant();
+        let courant = setup::courant(scenario, options.courant());
+        let finer = AxiOptions::default().courant() / courant;
         let steps = f64::from(options.cells_per_radius()) * of_length * finer;
         // A step is the time in which the fastest wave crosses a part of a cell.
-        let time_step = options.courant() * setup::cell(scenario) / setup::wave_speed(scenario);
+        let time_step = courant * setup::cell(scenario) / setup::wave_speed(scenario);
         let ended = options
             .end_time
             .map_or(f64::INFINITY, |time| time.si() / time_step);

@@ -213,17 +213,28 @@ fn nose_radius(nose: Nose, diameter: f64, behind: f64) -> f64 {
     }
 }
 
-/// Surface of a projectile that contact follows. A flat face has its normals from the nodes, what is taken out of a body leaves no surface
-/// behind, and what sticks needs none.
-fn surface(rod: &Rod, law: &Law, contact: Contact, mesh: &Mesh) -> Option<Surface> {
-    let slides = contact != Contact::Sticking;
+/// Whether contact follows the surface of the projectile. A flat face has its normals from the nodes, what is taken out of a body leaves no
+/// surface behind, and what sticks needs none.
+fn follows_surface(scenario: &Scenario) -> bool {
+    let rod = &scenario.projectile;
+    let meets_layers = matches!(scenario.target, TargetBody::Layers { .. });
+    let slides = scenario.options.axi.contact() != ContactKind::Sticking;
+    if rod.nose == Nose::Flat || !meets_layers || !slides {
+        return false;
+    }
+    let law = law(&rod.material, scenario);
     let fails =
         law.damage.is_some() || law.failure_strain.is_some() || law.spall_strength.is_some();
-    let stays = law.erosion_strain.is_none() && !(law.erode_failed && fails);
-    (rod.nose != Nose::Flat && slides && stays).then(|| {
-        let radius = |behind| nose_radius(rod.nose, rod.diameter, behind);
-        Surface::new(radius, rod.length, mesh.cell)
-    })
+    law.erosion_strain.is_none() && !(law.erode_failed && fails)
+}
+
+/// Courant number of a case's time steps, for one of runs at nodes.
+pub(super) fn courant(scenario: &Scenario, courant: f64) -> f64 {
+    if follows_surface(scenario) {
+        STEP * courant
+    } else {
+        courant
+    }
 }
 
 /// Builds the bodies of a case.
@@ -246,7 +257,10 @@ pub(super) fn build(
         ContactKind::Sticking => Contact::Sticking,
         ContactKind::Frictional => Contact::Frictional(options.friction()),
     };
-    let surface = surface(rod, &rod_law, contact, &mesh);
+    let surface = follows_surface(scenario).then(|| {
+        let radius = |behind| nose_radius(rod.nose, rod.diameter, behind);
+        Surface::new(radius, rod.length, mesh.cell)
+    });
     let mut bodies = vec![Body::set_up(rod_law, particles, control)?];
     let mut supports = vec![BoundaryConditions {
         wall: scenario.target == TargetBody::RigidWall,
@@ -311,7 +325,7 @@ pub(super) fn build(
         bodies,
         supports,
         contact,
-        courant: courant * surface.as_ref().map_or(1.0, |_| STEP),
+        courant: self::courant(scenario, courant),
         surface,
         mesh,
         limits,
