@@ -1,7 +1,7 @@
 //! Range checks that remember which key they looked at.
 
 use crate::{
-    error::Subject,
+    error::{InputError, Subject},
     units::{Dimension, Quantity, display, significant},
 };
 
@@ -75,6 +75,24 @@ impl Diagnostic {
         Self {
             subject: Subject::Material,
             ..self
+        }
+    }
+
+    /// Whether it is a number outside its range, and not a key without effect.
+    pub(crate) fn is_out_of_range(&self) -> bool {
+        self.message.ends_with("is out of range")
+    }
+
+    /// The error of something that comes from no file; `name` stands for it.
+    pub fn in_no_file(self, name: &str) -> InputError {
+        InputError {
+            subject: self.subject,
+            file: name.to_owned(),
+            text: String::new(),
+            span: 0..0,
+            key: self.key,
+            message: self.message,
+            help: self.help,
         }
     }
 

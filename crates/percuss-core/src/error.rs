@@ -171,7 +171,6 @@ impl From<NumericalError> for Error {
     }
 }
 
-/// A reason per model, in one text.
 /// What is wrong where no quick model applies.
 fn no_model_message(by_name: &[&str]) -> String {
     match by_name.is_empty() {

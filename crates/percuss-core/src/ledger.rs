@@ -89,7 +89,7 @@ impl EnergyLedger {
         self.step_changes / self.initial
     }
 
-    /// Part of the initial energy that no line accounts for; 0 when nothing moved at the start.
+    /// Part of the initial energy that no line accounts for; where there was none, that energy itself [J].
     pub fn residual(&self) -> f64 {
         if self.initial == 0.0 {
             return self.total();
@@ -135,7 +135,7 @@ impl MomentumLedger {
         ]
     }
 
-    /// Part of the initial momentum that no line accounts for; 0 when nothing moved at the start.
+    /// Part of the initial momentum that no line accounts for; where there was none, that momentum itself [N s].
     pub fn residual(&self) -> f64 {
         let total: f64 = self.lines().iter().map(|line| line.1).sum();
         if self.initial == 0.0 {

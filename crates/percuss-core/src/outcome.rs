@@ -336,9 +336,9 @@ pub struct Numerics {
     pub energy: EnergyLedger,
     /// Momentum book at the end.
     pub momentum: MomentumLedger,
-    /// Largest energy residual that was seen during the run.
+    /// Largest energy residual that was seen during the run, as a part of the initial energy.
     pub energy_residual: f64,
-    /// Largest momentum residual that was seen during the run.
+    /// Largest momentum residual that was seen during the run, as a part of the initial momentum.
     pub momentum_residual: f64,
 }
 

@@ -190,9 +190,11 @@ impl Regime {
                 (*pressure, None, 0.0)
             }
             TargetBody::Layers { layers, .. } => {
-                let front = &layers[0].material;
-                let resistance = target_resistance(front, layers[0].start_temperature());
-                let density = front.density.si();
+                let front = layers.first();
+                let resistance = front.and_then(|front| {
+                    target_resistance(&front.material, front.start_temperature())
+                });
+                let density = front.map_or(0.0, |front| front.material.density.si());
                 let pressure = resistance.map_or(f64::INFINITY, |resistance| {
                     resistance + nose_factor(rod.nose) * density * speed * speed
                 });

@@ -7,6 +7,12 @@ pub trait ResistanceLaw {
     /// Pressure on the floor [Pa], inertia of the target included, at a permanent depth of the crater [m] and while the floor advances
     /// at a speed [m/s], which is never negative. Below that pressure the floor stands.
     fn pressure(&self, depth: f64, speed: f64) -> f64;
+
+    /// Text that differs between laws with different results, numbers with all their digits included: a checkpoint belongs to it. `None`
+    /// refuses checkpoints.
+    fn fingerprint(&self) -> Option<String> {
+        None
+    }
 }
 
 /// A law of the caller's own. No file can name it, and it equals itself only.

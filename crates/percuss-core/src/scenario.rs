@@ -1,5 +1,7 @@
 //! A case with its materials looked up and its quantities in SI units: what models run on.
 
+mod check;
+
 use std::{f64::consts::PI, sync::Arc};
 
 use crate::{
@@ -240,7 +242,7 @@ impl Scenario {
         }
     }
 
-    /// The same case at another impact velocity [m/s].
+    /// The same case at another impact velocity [m/s]: 0, or 1 um/s to 10 km/s.
     pub fn at_impact_velocity(&self, impact_velocity: f64) -> Self {
         let mut other = Self {
             impact_velocity,

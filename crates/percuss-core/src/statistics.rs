@@ -10,7 +10,7 @@ pub fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
 /// Quantile of values in rising order, interpolated linearly between neighbours (NumPy's default).
 ///
 /// # Panics
-/// Without values.
+/// Without values, and for a part that is not from 0 to 1.
 pub fn quantile(sorted: &[f64], part: f64) -> f64 {
     let place = part * (sorted.len() - 1) as f64;
     let below = place.floor() as usize;

@@ -78,9 +78,9 @@ const BACK_FACE_DEPTH: f64 = 0.8;
 /// Whether the struck material never yields.
 fn never_yields(scenario: &Scenario) -> bool {
     match &scenario.target {
-        TargetBody::Layers { layers, .. } => {
-            layers[0].material.flow_stress(STRENGTH_STRAIN).is_none()
-        }
+        TargetBody::Layers { layers, .. } => layers
+            .first()
+            .is_some_and(|front| front.material.flow_stress(STRENGTH_STRAIN).is_none()),
         TargetBody::RigidWall | TargetBody::ConstantPressure(_) => false,
     }
 }

@@ -2,7 +2,7 @@
 
 use percuss::{
     material::{Library, Material, MaterialEntry, TulerButcher, references},
-    units::{Pressure, Velocity, significant},
+    units::{Velocity, significant},
 };
 
 use crate::{
@@ -163,7 +163,7 @@ fn constants(material: &Material, card: &mut MaterialCard) {
     card.row("Young's modulus", &material.youngs_modulus.to_string());
     card.row("Poisson's ratio", &material.poissons_ratio.to_string());
     let rounded = |si: f64| significant(si, 4);
-    let shear = Pressure::new(material.shear_modulus() * 1e-9).si();
+    let shear = material.shear_modulus() * 1e-9;
     card.row(
         "shear modulus",
         &format!("{} GPa (from E and ν)", rounded(shear)),

@@ -3,6 +3,7 @@
 use crate::{
     Error, Scenario,
     axisymmetric::main_number,
+    check::Diagnostic,
     model::{Control, Model, run},
     outcome::{BandQuantity, Detail, RunResult},
     richardson::{CREDIBLE_ORDERS, OnMesh, SAFETY, Trend, extrapolate, trend},
@@ -45,13 +46,23 @@ pub struct MeshChoice {
 /// solution fails are left out: the coarsest ones, or all from a finer one on.
 ///
 /// # Errors
-/// [`Error::NotApplicable`] to a model without a mesh or without such a number; those of [`run`].
+/// [`Error::Input`] for a tolerance that is not positive; [`Error::NotApplicable`] to a model without a mesh or without such a number;
+/// those of [`run`].
 pub fn choose_mesh(
     model: &dyn Model,
     scenario: &Scenario,
     tolerance: f64,
     control: &mut Control<'_>,
 ) -> Result<MeshChoice, Error> {
+    if !(tolerance > 0.0 && tolerance.is_finite()) {
+        let message = format!("a tolerance of {tolerance} is met by no mesh");
+        let wrong = Diagnostic::at(
+            "tolerance",
+            message,
+            "allowed: above 0, such as 0.01 for 1 %",
+        );
+        return Err(wrong.in_no_file(&scenario.name).into());
+    }
     let mut tried: Vec<(Scenario, RunResult)> = Vec::new();
     let mut best = None;
     for level in 0..MESHES {
@@ -88,7 +99,10 @@ pub fn choose_mesh(
         (finest, number(scenario, &tried[finest].1).0, f64::INFINITY)
     });
     let (scenario, result) = tried.swap_remove(place);
-    let (projectile, target) = result.numerics().elements;
+    let Some(numerics) = &result.numerics else {
+        return Err(Error::not_applicable(model.name(), "it has no mesh"));
+    };
+    let (projectile, target) = numerics.elements;
     let mut elements = vec![("projectile_elements", projectile)];
     if !scenario.layers().is_empty() {
         elements.push(("target_elements", target));

@@ -1,12 +1,13 @@
 //! Every numerical solver continues from a checkpoint with the same bits, and gives its fields.
 
-use std::ops::ControlFlow;
+use std::{ops::ControlFlow, sync::Arc};
 
 use percuss::{
     Error, Scenario, case,
     frames::{Fields, Frame},
     model::{self, Checkpoints, Control},
     outcome::{Outcome, RunResult},
+    resistance::{CustomResistance, ResistanceLaw},
 };
 
 /// A model with a case for each kind of state that its checkpoints hold.
@@ -459,4 +460,76 @@ fn a_changed_bit_of_a_checkpoint_is_found() {
         changed[bit / 8] ^= 1 << (bit % 8);
     }
     assert!(continued(&kept).is_ok());
+}
+
+/// A law of the caller's own, with and without a fingerprint.
+struct Constant(f64, bool);
+
+impl ResistanceLaw for Constant {
+    fn pressure(&self, _: f64, _: f64) -> f64 {
+        self.0
+    }
+
+    fn fingerprint(&self) -> Option<String> {
+        self.1.then(|| format!("constant {}", self.0))
+    }
+}
+
+#[test]
+fn a_checkpoint_belongs_to_the_law_that_a_program_brought() {
+    let with = |law: Constant| Scenario {
+        resistance: Some(CustomResistance(Arc::new(law))),
+        ..case::load_str("own", CAVITY).unwrap()
+    };
+    let resume = |scenario: &Scenario, bytes: &[u8]| {
+        let mut control = Control {
+            resume: Some(bytes),
+            ..Control::default()
+        };
+        run("chain", scenario, &mut control)
+    };
+    let bytes = interrupted("chain", &with(Constant(2e9, true)), 3).unwrap();
+    assert!(resume(&with(Constant(2e9, true)), &bytes).is_ok());
+    let other = resume(&with(Constant(5e9, true)), &bytes).unwrap_err();
+    assert!(other.to_string().contains("another case"), "{other}");
+    // Without one, before the first step.
+    let mut keeper = Keeper {
+        asked: 0,
+        wanted: u32::MAX,
+        kept: Vec::new(),
+    };
+    let mut control = Control {
+        checkpoints: Some(&mut keeper),
+        ..Control::default()
+    };
+    let refused = run("chain", &with(Constant(2e9, false)), &mut control).unwrap_err();
+    assert!(matches!(refused, Error::Checkpoint { .. }), "{refused}");
+    assert_eq!(keeper.asked, 0);
+    let nothing = run(
+        "chain",
+        &with(Constant(f64::NAN, true)),
+        &mut Control::default(),
+    );
+    assert!(nothing.unwrap_err().to_string().contains("NaN Pa"));
+}
+
+#[test]
+fn a_history_is_that_of_the_whole_run() {
+    let scenario = case::load_str("silent", CAVITY).unwrap();
+    let mut keeper = Keeper {
+        asked: 0,
+        wanted: 3,
+        kept: Vec::new(),
+    };
+    let mut control = Control {
+        checkpoints: Some(&mut keeper),
+        ..Control::default()
+    };
+    assert!(run("chain", &scenario, &mut control).is_err());
+    let mut control = Control {
+        resume: Some(&keeper.kept),
+        ..Control::recording()
+    };
+    let refused = run("chain", &scenario, &mut control).unwrap_err();
+    assert!(refused.to_string().contains("kept no history"), "{refused}");
 }

@@ -289,7 +289,10 @@ fn every_default_of_the_schema_is_tried() {
     for table in tables_of_options(&schema) {
         for (key, default) in defaults_in_schema(&schema, &table) {
             let is_tried = TRIES.iter().any(|of| of.tries(&table, &key));
-            assert!(is_tried, "{table}.{key} = {default}");
+            assert!(
+                is_tried,
+                "`{table}.{key}` = {default}: add a `Try` to `TRIES`"
+            );
             tried += 1;
         }
     }

@@ -5,6 +5,7 @@ mod axi_output;
 mod balances;
 mod built_in_code;
 mod cases;
+mod changed;
 mod checkpoints;
 mod common;
 mod consistency;

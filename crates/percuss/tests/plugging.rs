@@ -87,11 +87,11 @@ fn a_plug_that_leaves_alone_leaves_a_hole() {
         "shear_band = { width = \"0.1 mm\", shear_strength = \"100 MPa\", failure_strain = 1.0 }";
     let mut light = scenario(100.0, "", chain);
     let mut material = (*light.projectile.material).clone();
-    material.density = percuss::units::Density::new(1000.0);
+    material.density = percuss::units::Density::new(4000.0);
     light.projectile.material = material.into();
-    light.projectile.mass *= 1000.0 / 7850.0;
-    light.projectile.length *= 0.2;
-    light.projectile.mass *= 0.2;
+    light.projectile.mass *= 4000.0 / 7850.0;
+    light.projectile.length *= 0.05;
+    light.projectile.mass *= 0.05;
     let result = run(&light);
     balanced(&result);
     println!("{} {:?}", result.criterion, result.residual_velocity);

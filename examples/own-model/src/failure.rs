@@ -22,6 +22,10 @@ impl FailureLaw for LargestTension {
     }
 
     fn check(&self, _: &mut Check<'_>) {}
+
+    fn fingerprint(&self) -> Option<String> {
+        Some(format!("{self:?}"))
+    }
 }
 
 impl PreparedFailure for LargestTension {

@@ -40,6 +40,10 @@ impl StrengthLaw for LinearHardening {
     }
 
     fn check(&self, _: &mut Check<'_>) {}
+
+    fn fingerprint(&self) -> Option<String> {
+        Some(format!("{self:?}"))
+    }
 }
 
 impl PreparedStrength for LinearHardening {

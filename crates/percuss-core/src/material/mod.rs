@@ -181,12 +181,7 @@ impl Material {
     pub fn class(&self) -> MaterialClass {
         match self.strength {
             Strength::Concrete(_) => MaterialClass::Concrete,
-            Strength::Elastic(_)
-            | Strength::PerfectlyPlastic(_)
-            | Strength::PowerLaw(_)
-            | Strength::JohnsonCook(_)
-            | Strength::SteinbergGuinan(_)
-            | Strength::Own(_) => MaterialClass::Metal,
+            _ => MaterialClass::Metal,
         }
     }
 

@@ -91,7 +91,12 @@ impl Library {
             let named = listed(&fitting, fitting.len());
             return format!("take one of {named}. ");
         }
-        let families = families(&self.search(name));
+        let mut found = self.search(name);
+        if found.is_empty() {
+            // `steel-4340`: the words of a name in any order.
+            found = self.search(&name.replace(['-', '_'], " "));
+        }
+        let families = families(&found);
         match families.as_slice() {
             [] => self
                 .nearest(name)

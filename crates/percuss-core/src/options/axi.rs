@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     ArtificialViscosity,
     common::{OF_TWO, check_end, check_viscosity, refuse_without_heating, refuse_without_target},
-    defaults::{MAX_STEPS, defaults},
+    defaults::{HEAT_FRACTION, MAX_STEPS, defaults},
 };
 use crate::{
     check::{Check, Limits, limits},
@@ -130,7 +130,7 @@ defaults! { AxiOptions, axi_in_schema {
     /// Whether plastic work heats the material.
     adiabatic_heating: bool = true;
     /// Fraction of plastic work that becomes heat.
-    heat_fraction: f64 = 0.9;
+    heat_fraction: f64 = HEAT_FRACTION;
     /// Width of the band in which localized strain makes damage grow.
     band_width: Length = Length::new(0.25e-3);
     /// Time steps after which a run is ended.

@@ -3,7 +3,7 @@
 use super::{
     chain::ChainOptions,
     chain_enums::{ArtificialViscosity, ErosionCriterion, Kinematics, TargetResistanceModel},
-    defaults::{MAX_STEPS, defaults},
+    defaults::{HEAT_FRACTION, MAX_STEPS, defaults},
     number_or_name::{ConstraintFactor, ErosionStrain, NumberOrName},
     published_options::PublishedOptions,
     shear_band::BorderShearLaw,
@@ -33,7 +33,7 @@ defaults! { ChainOptions, chain_in_schema {
     /// Whether plastic work heats the material.
     adiabatic_heating: bool = true;
     /// Fraction of plastic work that becomes heat.
-    heat_fraction: f64 = 0.9;
+    heat_fraction: f64 = HEAT_FRACTION;
     /// Time steps after which a run is ended.
     max_steps: u64 = MAX_STEPS;
     /// Whether a run is ended when the depth is known.

@@ -6,6 +6,8 @@ use serde_json::{Map, Value};
 
 /// Time steps after which a run is ended.
 pub const MAX_STEPS: u64 = 20_000_000;
+/// Fraction of plastic work that becomes heat, in every model.
+pub const HEAT_FRACTION: f64 = 0.9;
 
 /// Gives options their defaults, and a function that writes these into their schema.
 ///

@@ -110,6 +110,11 @@ macro_rules! model_options {
         }
 
         impl ModelOptions {
+            /// Reports values that are not allowed for a target, each with its key, its allowed range and a remedy.
+            pub fn check(&self, check: &mut crate::check::Check<'_>, target: &crate::problem::Target) {
+                $(self.$name.check(&mut check.within(stringify!($name)), target);)*
+            }
+
             /// Whether a model has its default options, written or not, as one without any always has.
             pub fn are_default(&self, model: &str) -> bool {
                 match model {

@@ -7,7 +7,7 @@ use super::{
     ArtificialViscosity,
     axi::Eos,
     common::{OF_TWO, check_end, check_viscosity, refuse_without_heating, refuse_without_target},
-    defaults::{MAX_STEPS, defaults},
+    defaults::{HEAT_FRACTION, MAX_STEPS, defaults},
 };
 use crate::{
     check::{Check, Limits, limits},
@@ -224,7 +224,7 @@ defaults! { ParticlesOptions, particles_in_schema {
     /// Whether plastic work heats particles with a stress.
     adiabatic_heating: bool = true;
     /// Fraction of plastic work that becomes heat.
-    heat_fraction: f64 = 0.9;
+    heat_fraction: f64 = HEAT_FRACTION;
     /// Time step as a part of the largest stable one.
     courant: f64 = 0.5;
     /// Time steps after which a run is ended.

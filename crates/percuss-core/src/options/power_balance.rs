@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::defaults::defaults;
+use super::defaults::{HEAT_FRACTION, defaults};
 use crate::{
     check::{Check, limits},
     problem::Target,
@@ -29,7 +29,7 @@ defaults! { PowerBalanceOptions, power_balance_in_schema {
     /// Whether the plate around the projectile bends and stretches.
     bulging: bool = true;
     /// Fraction of plastic work that becomes heat.
-    heat_fraction: f64 = 0.9;
+    heat_fraction: f64 = HEAT_FRACTION;
 } }
 
 impl PowerBalanceOptions {

@@ -199,6 +199,28 @@ impl Nose {
         }
     }
 
+    /// Radius at a distance behind the tip [m], on a shank of this diameter [m]; 0 ahead of the tip.
+    pub fn radius(self, diameter: f64, behind: f64) -> f64 {
+        let shank = 0.5 * diameter;
+        let length = self.length(diameter);
+        if behind >= length {
+            return shank;
+        }
+        if behind <= 0.0 {
+            return 0.0;
+        }
+        match self {
+            Self::Flat => shank,
+            Self::Hemisphere => (shank * shank - (shank - behind).powi(2)).sqrt(),
+            Self::Cone { .. } => shank * behind / length,
+            Self::Ogive { crh } => {
+                let arc = crh * diameter;
+                let along = length - behind;
+                (arc * arc - along * along).sqrt() - (arc - shank)
+            }
+        }
+    }
+
     /// Volume of the nose [m3] on a shank of this diameter [m].
     pub fn volume(self, diameter: f64) -> f64 {
         let radius = diameter / 2.0;
@@ -244,18 +266,29 @@ mod tests {
     }
 
     #[test]
-    fn the_volume_of_an_ogive_is_its_integral() {
-        let (nose, diameter) = (Nose::Ogive { crh: 3.0 }, 0.02);
-        let (s, length) = (3.0 * diameter, nose.length(diameter));
-        let n = 20_000;
-        let sum: f64 = (0..n)
-            .map(|i| {
-                let x = length * (i as f64 + 0.5) / n as f64;
-                let r = (s * s - x * x).sqrt() - (s - diameter / 2.0);
-                PI * r * r * length / n as f64
-            })
-            .sum();
-        assert!((nose.volume(diameter) / sum - 1.0).abs() < 1e-7);
+    fn the_volume_of_a_nose_is_the_integral_of_its_sections() {
+        let diameter = 0.02;
+        for nose in [
+            Nose::Hemisphere,
+            Nose::Cone {
+                length_to_diameter: 0.98,
+            },
+            Nose::Ogive { crh: 0.5 },
+            Nose::Ogive { crh: 3.0 },
+        ] {
+            let length = nose.length(diameter);
+            let n = 20_000;
+            let sum: f64 = (0..n)
+                .map(|i| {
+                    let r = nose.radius(diameter, length * (i as f64 + 0.5) / n as f64);
+                    PI * r * r * length / n as f64
+                })
+                .sum();
+            assert!((nose.volume(diameter) / sum - 1.0).abs() < 1e-7, "{nose:?}");
+            assert_eq!(nose.radius(diameter, length), 0.5 * diameter);
+            assert_eq!(nose.radius(diameter, -1e-9), 0.0);
+        }
+        assert_eq!(Nose::Flat.radius(diameter, 0.0), 0.5 * diameter);
     }
 
     #[test]

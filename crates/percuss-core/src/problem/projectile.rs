@@ -183,7 +183,8 @@ impl Projectile {
 /// Reports a velocity out of range, or one other than zero that is too small.
 fn check_impact_velocity(velocity: Velocity, check: &mut Check<'_>) {
     let [moving, all] = [limits::MOVING, limits::IMPACT_VELOCITY];
-    if velocity.si() <= 0.0 || velocity.si() > moving.max || moving.allow(velocity.si()) {
+    let is_slow = velocity.si() > 0.0 && velocity.si() < moving.min;
+    if !is_slow || moving.allow(velocity.si()) {
         check.quantity("impact_velocity", velocity, all);
         return;
     }

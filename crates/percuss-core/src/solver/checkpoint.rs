@@ -5,12 +5,16 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Error, Scenario, scenario::Given};
+use crate::{
+    Error, Scenario,
+    material::{Failure, Strength},
+    scenario::Given,
+};
 
 /// First bytes of every checkpoint, by which a file is known as one.
 pub const CHECKPOINT_START: &[u8] = b"percuss checkpoint\n";
 /// Raised whenever the content changes its form.
-const FORMAT: u32 = 15;
+const FORMAT: u32 = 16;
 
 /// What a checkpoint says of itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -48,7 +52,7 @@ pub(super) fn seal(
         format: FORMAT,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         model: model.to_owned(),
-        case: fingerprint(scenario),
+        case: fingerprint(scenario)?,
         checksum: 0,
         step,
         time,
@@ -99,7 +103,7 @@ pub(super) fn open<'a>(
         let what = format!("it is of model `{}`, not `{model}`", header.model);
         return Err(refused(&what, &format!("give `--model {}`", header.model)));
     }
-    if header.case != fingerprint(scenario) {
+    if header.case != fingerprint(scenario)? {
         return Err(refused(
             "it is of another case: only its title, sources, experiments, measured curves, and `end_time`, `max_steps` and `end_at_rest` of a model may change",
             "restore the case or start again without `--resume`",
@@ -119,8 +123,18 @@ fn refused(reason: &str, remedy: &str) -> Error {
     }
 }
 
+pub(super) fn without_history() -> Error {
+    refused(
+        "it is of a run that kept no history",
+        "continue without one, or start again",
+    )
+}
+
 /// A number that stands for everything in a case that its run depends on.
-fn fingerprint(scenario: &Scenario) -> u64 {
+///
+/// # Errors
+/// [`Error::Checkpoint`] for a law of the caller's own that cannot be told from others.
+pub(super) fn fingerprint(scenario: &Scenario) -> Result<u64, Error> {
     let mut bare = Scenario {
         name: String::new(),
         title: String::new(),
@@ -148,7 +162,38 @@ fn fingerprint(scenario: &Scenario) -> u64 {
     options.fdm.end_at_rest = None;
     options.axi.end_at_rest = None;
     // Debug output gives every number with all its digits.
-    hash(format!("{bare:?}").as_bytes())
+    let mut text = format!("{bare:?}");
+    for (what, fingerprint) in own_laws(scenario) {
+        text += &fingerprint.ok_or_else(|| {
+            refused(
+                &format!(
+                    "{what} is a law of the program's own, which another one could replace unseen"
+                ),
+                "give the law a `fingerprint`, or keep no checkpoints",
+            )
+        })?;
+    }
+    Ok(hash(text.as_bytes()))
+}
+
+/// Laws of the caller's own in a case, each with its fingerprint.
+fn own_laws(scenario: &Scenario) -> Vec<(String, Option<String>)> {
+    let mut found = Vec::new();
+    if let Some(law) = &scenario.resistance {
+        found.push(("the resistance law".to_owned(), law.0.fingerprint()));
+    }
+    for (body, material) in scenario.bodies() {
+        if let Strength::Own(law) = &material.strength {
+            found.push((
+                format!("the strength law of the {body}"),
+                law.0.fingerprint(),
+            ));
+        }
+    }
+    if let Some(Failure::Own(law)) = &scenario.options.chain.failure {
+        found.push(("`chain.failure`".to_owned(), law.0.fingerprint()));
+    }
+    found
 }
 
 /// FNV-1a, 64 bits: the same on every machine, which the standard library's hashes do not promise.

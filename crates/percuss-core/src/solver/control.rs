@@ -46,11 +46,13 @@ pub struct Control<'a> {
     /// Called now and then; [`ControlFlow::Break`] ends the run with [`Error::Cancelled`].
     pub progress: Option<&'a mut dyn FnMut(Progress) -> ControlFlow<()>>,
     /// Gets the fields of a model that [has some](crate::solver::Model::has_fields), at even intervals of time from the start to the
-    /// end; [`ControlFlow::Break`] ends the run with [`Error::Cancelled`].
+    /// end. A run that is repeated with smaller steps starts over: a frame of step 0 replaces all before it. [`ControlFlow::Break`] ends
+    /// the run with [`Error::Cancelled`].
     pub frames: Option<OnFrame<'a>>,
-    /// Gets checkpoints of a model that [has fields](crate::solver::Model::has_fields).
+    /// Gets checkpoints of a model that [has fields](crate::solver::Model::has_fields). A law of the caller's own needs a fingerprint for
+    /// them.
     pub checkpoints: Option<&'a mut dyn Checkpoints>,
-    /// A checkpoint of the same case to continue from; models without fields ignore it.
+    /// A checkpoint of the same case to continue from; models without fields ignore it. With `record`, it must hold a history.
     pub resume: Option<&'a [u8]>,
 }
 

@@ -53,6 +53,10 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
     /// # Errors
     /// As [`Solver::build`]; [`Error::Checkpoint`].
     pub fn new(scenario: &'a Scenario, control: &mut Control<'_>) -> Result<Self, Error> {
+        if control.checkpoints.is_some() {
+            // Now, not at the first checkpoint, which comes after a minute.
+            checkpoint::fingerprint(scenario)?;
+        }
         if let Some(bytes) = control.resume {
             return Self::resume(scenario, bytes, control);
         }
@@ -107,6 +111,9 @@ impl<'a, S: Solver<'a>> Drive<'a, S> {
         archive.item(&mut courant)?;
         let mut run = Self::with_courant(scenario, courant, control)?;
         run.archive(&mut archive)?;
+        if control.record && run.recorder.is_none() {
+            return Err(checkpoint::without_history());
+        }
         run.resumed = true;
         Ok(run)
     }

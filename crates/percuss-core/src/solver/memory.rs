@@ -6,14 +6,25 @@ use crate::{Refusal, input_file::size};
 
 /// Limit unless another one is set: 4 GiB.
 pub const DEFAULT_MEMORY_LIMIT: u64 = 4 << 30;
-/// Variable of the environment that sets the limit for the program and for Python.
+/// Variable of the environment that sets the limit, unless [`set_memory_limit`] does.
 pub const MEMORY_VARIABLE: &str = "PERCUSS_MEMORY_LIMIT";
 
-static LIMIT: AtomicU64 = AtomicU64::new(DEFAULT_MEMORY_LIMIT);
+/// The limit [bytes]; 0 until it is asked for.
+static LIMIT: AtomicU64 = AtomicU64::new(0);
 
 /// Largest memory that a run may take [bytes].
 pub fn memory_limit() -> u64 {
-    LIMIT.load(Ordering::Relaxed)
+    match LIMIT.load(Ordering::Relaxed) {
+        0 => {
+            let given = std::env::var(MEMORY_VARIABLE).ok();
+            let limit = given.and_then(|text| parse_size(&text));
+            let limit = limit.unwrap_or(DEFAULT_MEMORY_LIMIT);
+            // Another thread may have set it meanwhile.
+            let before = LIMIT.compare_exchange(0, limit, Ordering::Relaxed, Ordering::Relaxed);
+            before.map_or_else(|set| set, |_| limit)
+        }
+        limit => limit,
+    }
 }
 
 /// Sets the largest memory that a run may take, for all runs of the process [bytes].

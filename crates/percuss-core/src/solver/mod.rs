@@ -132,15 +132,16 @@ pub trait Model: Sync {
     }
 }
 
-/// Computes a case by a model.
+/// Computes a case by a model. [`Model::estimate`] says beforehand what that takes.
 ///
 /// # Errors
-/// [`Error::NotApplicable`] when the model does not apply; otherwise those of [`Model::run`].
+/// [`Error::Input`] from [`Scenario::check`]; [`Error::NotApplicable`] when the model does not apply; otherwise those of [`Model::run`].
 pub fn run(
     model: &dyn Model,
     scenario: &Scenario,
     control: &mut Control<'_>,
 ) -> Result<RunResult, Error> {
+    scenario.check()?;
     run_in(model, scenario, &Regime::of(scenario), control)
 }
 
@@ -206,6 +207,10 @@ pub fn complete(
 /// # Errors
 /// Why it does not.
 pub fn applicability(model: &dyn Model, scenario: &Scenario) -> Result<Vec<String>, Refusal> {
+    if let Some(fault) = scenario.faults().into_iter().next() {
+        let reason = format!("`{}`: {}", fault.key, fault.message);
+        return Err(Refusal::new(reason).with_remedy(fault.help));
+    }
     applicability_in(model, scenario, &Regime::of(scenario))
 }
 

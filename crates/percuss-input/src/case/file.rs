@@ -6,7 +6,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    check::Check,
     inputs::UncertainInputs,
     material::MaterialTable,
     options::ModelOptions,
@@ -91,9 +90,6 @@ macro_rules! case_with_model_options {
                 }
             }
 
-            pub(super) fn check_model_options(&self, check: &mut Check<'_>) {
-                $(self.$name.check(&mut check.within(stringify!($name)), &self.target);)*
-            }
         }
     };
 }

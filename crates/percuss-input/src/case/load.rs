@@ -191,7 +191,7 @@ impl Case {
     fn check(&self, check: &mut Check<'_>) {
         self.projectile.check(&mut check.within("projectile"));
         self.target.check(&mut check.within("target"));
-        self.check_model_options(check);
+        self.model_options().check(check, &self.target);
         Gauge::check_all(&self.gauges, check);
         self.history.check(&mut check.within("history"));
         MeasuredTable::check_all(&self.measured_curves, &self.gauges, check);

@@ -1,6 +1,12 @@
 //! JSON with a record for each id, as `percuss materials export --format json` prints it.
 
-use serde_json::Value;
+use std::fmt;
+
+use serde::{
+    Deserialize, Deserializer,
+    de::{Error as _, MapAccess, SeqAccess, Visitor},
+};
+use serde_json::{Map, Value};
 
 use crate::{
     check::Check,
@@ -36,12 +42,15 @@ pub fn read_json(file: &str, text: &str) -> Result<Imported, Error> {
         };
         error.into()
     };
-    let whole: Value = serde_json::from_str(text).map_err(|error| {
+    let whole = serde_json::from_str(text).map_err(|error| {
         let place = place(text, &error);
-        let help = "up to here the file is valid JSON".to_owned();
-        refuse(place, String::new(), error.to_string(), help)
+        let help = match error.is_data() {
+            true => "give each key of an object once",
+            false => "up to here the file is valid JSON",
+        };
+        refuse(place, String::new(), error.to_string(), help.to_owned())
     })?;
-    let Value::Object(entries) = whole else {
+    let Once(Value::Object(entries)) = whole else {
         let message = "the file is no object with a record for each id".to_owned();
         let help = "write {\"my-steel\": {\"name\": \"...\", \"density\": \"7850 kg/m3\", ...}}";
         return Err(refuse(0..0, String::new(), message, help.to_owned()));
@@ -73,6 +82,71 @@ pub fn read_json(file: &str, text: &str) -> Result<Imported, Error> {
         return Err(refuse(0..0, String::new(), message, help));
     }
     Ok(found)
+}
+
+/// A value whose objects have each key once: of two entries `serde_json` would keep the last without a word.
+struct Once(Value);
+
+impl<'de> Deserialize<'de> for Once {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(OnceVisitor).map(Self)
+    }
+}
+
+struct OnceVisitor;
+
+impl<'de> Visitor<'de> for OnceVisitor {
+    type Value = Value;
+
+    fn expecting(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        to.write_str("a JSON value")
+    }
+
+    fn visit_unit<E>(self) -> Result<Value, E> {
+        Ok(Value::Null)
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_u64<E>(self, value: u64) -> Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_str<E>(self, value: &str) -> Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<Value, A::Error> {
+        let mut values = Vec::new();
+        while let Some(Once(value)) = entries.next_element()? {
+            values.push(value);
+        }
+        Ok(values.into())
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Value, A::Error> {
+        let mut values = Map::new();
+        while let Some(key) = entries.next_key::<String>()? {
+            if values.contains_key(&key) {
+                return Err(A::Error::custom(format_args!(
+                    "the key `{key}` is given twice"
+                )));
+            }
+            let Once(value) = entries.next_value()?;
+            values.insert(key, value);
+        }
+        Ok(values.into())
+    }
 }
 
 /// The byte of an error.

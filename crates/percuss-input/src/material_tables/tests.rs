@@ -123,6 +123,16 @@ fn what_is_wrong_is_refused_with_its_place() {
         ),
         (record.replace("}}}}", "}}}"), "a.json:3", "EOF"),
         ("[]".to_owned(), "a.json", "no object"),
+        (
+            record.replace("\"poissons_ratio\"", "\"density\""),
+            "a.json:2",
+            "the key `density` is given twice",
+        ),
+        (
+            format!("{{{}, {}", &record[1..record.len() - 1], &record[1..]),
+            "a.json:3",
+            "the key `foam` is given twice",
+        ),
     ] {
         let error = read_json("a.json", &text).unwrap_err().to_string();
         assert!(

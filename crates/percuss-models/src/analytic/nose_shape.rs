@@ -8,35 +8,13 @@ use crate::{bisection::bisected, problem::Nose};
 /// Panels of the nose; one is exact for hemispheres and cones.
 const PANELS: u32 = 4;
 
-/// Radius of the projectile [m] at a distance behind its tip [m], on a shank of this diameter [m].
-pub(super) fn radius(nose: Nose, diameter: f64, behind_tip: f64) -> f64 {
-    let shank = diameter / 2.0;
-    let length = nose.length(diameter);
-    if behind_tip <= 0.0 {
-        return 0.0;
-    }
-    if behind_tip >= length {
-        return shank;
-    }
-    match nose {
-        Nose::Flat => shank,
-        Nose::Hemisphere => (behind_tip * (diameter - behind_tip)).sqrt(),
-        Nose::Cone { .. } => shank * behind_tip / length,
-        Nose::Ogive { crh } => {
-            let arc = crh * diameter;
-            let to_shank = length - behind_tip;
-            (arc * arc - to_shank * to_shank).max(0.0).sqrt() - (arc - shank)
-        }
-    }
-}
-
 /// Volume [m3] of the part of the projectile within a distance behind its tip [m].
 fn volume_behind_tip(nose: Nose, diameter: f64, distance: f64) -> f64 {
     if distance <= 0.0 {
         return 0.0;
     }
     let within_nose = distance.min(nose.length(diameter));
-    let square = |x: f64| radius(nose, diameter, x).powi(2);
+    let square = |x: f64| nose.radius(diameter, x).powi(2);
     PI * integral(0.0, within_nose, PANELS, square)
         + PI * diameter * diameter / 4.0 * (distance - within_nose)
 }

@@ -9,40 +9,46 @@ use super::{
 };
 use crate::history::{ElementState, Profile, Sample};
 
-/// State at this time, with the depth of the crater floor [m].
-pub(super) fn sample(solver: &Grid, depth: f64) -> Sample {
+/// State at this time, with the depth of the crater floor below a face that has flown by `flight` [m].
+pub(super) fn sample(solver: &Grid, depth: f64, flight: f64) -> Sample {
     let mesh = &solver.mesh;
     let rod = &solver.bodies[0];
-    let (tail, tip) = ends(rod, mesh).unwrap_or((0.0, 0.0));
     let sums = &solver.sums[0];
     let target = solver.bodies.get(1);
+    // What is gone has no place and no speed.
+    let (tail, tip) = ends(rod, mesh).unwrap_or((f64::NAN, f64::NAN));
+    let mean_velocity = sums.momentum / sums.mass;
+    let nodes = |body, place: f64| match place.is_nan() {
+        true => f64::NAN,
+        false => axis_velocity(body, place, mesh),
+    };
+    let floor = target.map_or(f64::NAN, |body| axis_velocity(body, depth + flight, mesh));
+    // Nodes that hold the first step's contact already are not how bodies meet.
+    let is_impact = solver.step == 0;
+    let before = |value: f64, at_impact: f64| if is_impact { at_impact } else { value };
     let mut sample = Sample::default();
     sample.time = solver.time;
     sample.step = solver.step;
-    sample.tip_velocity = axis_velocity(rod, tip, mesh);
-    sample.tail_velocity = axis_velocity(rod, tail, mesh);
-    sample.interface_velocity = target.map_or(0.0, |body| axis_velocity(body, depth, mesh));
+    sample.tip_velocity = before(nodes(rod, tip), mean_velocity);
+    sample.tail_velocity = before(nodes(rod, tail), mean_velocity);
+    sample.interface_velocity = before(floor, if target.is_some() { 0.0 } else { f64::NAN });
     sample.back_velocity = back_velocity(solver);
-    sample.mean_velocity = if sums.mass > 0.0 {
-        sums.momentum / sums.mass
-    } else {
-        0.0
-    };
+    sample.mean_velocity = mean_velocity;
     sample.tip_position = tip;
     sample.depth = depth;
-    sample.projectile_length = tip - tail;
-    sample.contact_force = solver.deferred.contact_force;
-    sample.back_force = solver.deferred.support_impulse / solver.time_step;
+    sample.projectile_length = if tip.is_nan() { 0.0 } else { tip - tail };
+    sample.contact_force = before(solver.deferred.contact_force, 0.0);
+    sample.back_force = before(solver.deferred.support_impulse / solver.time_step, 0.0);
     sample.energy = solver.energy();
     sample.momentum = solver.momentum();
     sample
 }
 
-/// Speed on the axis at the back of the last layer [m/s]; 0 without a target.
+/// Speed on the axis at the back of the last layer, if there is one [m/s].
 fn back_velocity(solver: &Grid) -> f64 {
     let layer = solver.bodies[1..].last();
     let back = layer.and_then(|layer| Some((layer, ends(layer, &solver.mesh)?.1)));
-    back.map_or(0.0, |(layer, back)| {
+    back.map_or(f64::NAN, |(layer, back)| {
         axis_velocity(layer, back, &solver.mesh)
     })
 }

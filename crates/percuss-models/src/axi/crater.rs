@@ -71,8 +71,8 @@ pub(super) fn axis_velocity(body: &Body, depth: f64, mesh: &Mesh) -> f64 {
 }
 
 /// Profile of the crater: radius and depth of the floor at every column of nodes, where material is left [m]. Depths below the struck
-/// face are scaled so that the first one, on the axis, is a known depth of the floor.
-pub(super) fn profile(targets: &[Body], mesh: &Mesh, depth: f64) -> Vec<[f64; 2]> {
+/// face, which has flown to `face`, are scaled so that the first one, on the axis, is a known depth of the floor.
+pub(super) fn profile(targets: &[Body], mesh: &Mesh, depth: f64, face: f64) -> Vec<[f64; 2]> {
     let fields: Vec<&Field> = targets.iter().map(|body| &body.field).collect();
     let columns = fields.iter().map(|field| field.columns).max().unwrap_or(0);
     let mut profile: Vec<[f64; 2]> = floor(targets, mesh)
@@ -85,12 +85,23 @@ pub(super) fn profile(targets: &[Body], mesh: &Mesh, depth: f64) -> Vec<[f64; 2]
         let surface = fields.iter().find_map(|field| surface(field, column, mesh));
         profile.extend(surface.map(|depth| [radius, depth]));
     }
-    if let Some(&[_, read]) = profile.first().filter(|[_, read]| *read > 0.0) {
-        for [_, below] in profile.iter_mut().filter(|[_, below]| *below > 0.0) {
-            *below *= depth / read;
+    if let Some(&[_, read]) = profile.first().filter(|[_, read]| *read > face) {
+        for [_, below] in profile.iter_mut().filter(|[_, below]| *below > face) {
+            *below = face + (*below - face) * (depth / (read - face));
         }
     }
     profile
+}
+
+/// Depth of the rear face of a body at a radius [m]; `None` where it fills no cell.
+pub(super) fn rear(body: &Body, radius: f64, mesh: &Mesh) -> Option<f64> {
+    let column = mesh.column(radius).max(2);
+    let at = |row: isize| {
+        let volume = body.field.node(row, column)[VOLUME];
+        (row, volume / mesh.full_volume(row, column))
+    };
+    let last = rows(&[&body.field]).rev().find(|row| at(*row).1 >= 0.5)?;
+    Some(crossing(at(last), at(last + 1), mesh))
 }
 
 /// Depth of the first surface that one meets at a column from behind a body's deepest material there [m]; `None` where it fills no cell: on a rim,

@@ -129,7 +129,7 @@ impl Window {
 }
 
 /// Whether the edge of the target holds it.
-fn is_held(scenario: &Scenario) -> bool {
+pub(super) fn is_held(scenario: &Scenario) -> bool {
     scenario.options.axi.edge != Some(Edge::Free)
 }
 

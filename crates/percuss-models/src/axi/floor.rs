@@ -22,6 +22,8 @@ pub(super) struct Floor {
     points: Vec<[f64; 2]>,
     /// Depth of the projectile's tip when it last pushed [m].
     tip: f64,
+    /// How far a target that nothing holds has flown [m]: its centre of mass, from which depths count.
+    flight: f64,
 }
 
 impl Floor {
@@ -37,7 +39,20 @@ impl Floor {
                 .map(|radius| [0.5 * diameter * radius, 0.0])
                 .collect(),
             tip: 0.0,
+            flight: 0.0,
         }
+    }
+
+    /// Includes a time [s] in which a target flies with a mass [kg] and a momentum [kg m/s].
+    pub(super) fn fly(&mut self, (mass, momentum): (f64, f64), time: f64) {
+        if mass > 0.0 {
+            self.flight += time * momentum / mass;
+        }
+    }
+
+    /// How far the target has flown [m].
+    pub(super) fn flight(&self) -> f64 {
+        self.flight
     }
 
     /// Moves the points with the struck body for a time [s].
@@ -56,7 +71,8 @@ impl Floor {
         }
     }
 
-    /// Depth of the floor on the axis, for that of the projectile's tip [m] while it pushes; `None` when there is no material on the axis.
+    /// Depth of the floor on the axis below the face as it flies [m], given where the projectile's tip is while it pushes [m]; `None` when there is no
+    /// material on the axis.
     pub(super) fn depth(
         &mut self,
         targets: &[Body],
@@ -64,17 +80,17 @@ impl Floor {
         tip: impl FnOnce() -> Option<f64>,
     ) -> Option<f64> {
         let filled = crater::floor(targets, mesh)?;
-        if filled < DEEP * mesh.cell
+        if filled - self.flight < DEEP * mesh.cell
             && let Some(tip) = tip()
         {
             self.tip = tip;
         }
-        Some(self.correct(filled, mesh.cell))
+        Some(self.correct(filled, mesh.cell) - self.flight)
     }
 
-    /// Depth of the floor for that of the filling and the cell size [m]. Points that have left it are dropped.
+    /// Place of the floor for that of the filling and the cell size [m]. Points that have left it are dropped.
     fn correct(&mut self, filled: f64, cell: f64) -> f64 {
-        let cells = filled / cell;
+        let cells = (filled - self.flight) / cell;
         if cells < DEEP {
             let near = |depth: f64, surface: f64| (depth - surface).abs() <= LOST * cell;
             self.points
@@ -98,6 +114,7 @@ mod tests {
         Floor {
             points: depths.iter().map(|depth| [0.0, *depth]).collect(),
             tip,
+            flight: 0.0,
         }
     }
 
@@ -115,6 +132,16 @@ mod tests {
         followed.tip = 1.2;
         assert!((followed.correct(0.5, 1.0) - 0.5).abs() < 1e-12);
         assert!(followed.points.is_empty());
+    }
+
+    #[test]
+    fn a_floor_that_flies_is_as_shallow_as_its_crater() {
+        let mut flying = floor(&[11.0, 11.2, 11.4], 11.2);
+        flying.fly((2.0, 8.0), 2.0);
+        flying.fly((0.0, 0.0), 2.0);
+        flying.fly((2.0, 2.0), 2.0);
+        assert_eq!(flying.flight(), 10.0);
+        assert!((flying.correct(11.0, 1.0) - 11.2).abs() < 1e-12);
     }
 
     #[test]

@@ -3,13 +3,15 @@
 use super::{crater, remnant::Remnant, run::Axisymmetric, setup::extent, solver::Grid};
 use crate::{
     outcome::{Detail, Outcome, RunResult, Termination},
+    problem::RearFaceCondition,
     scenario::TargetBody,
     shapes::Shapes,
     solver::{Particle, interface::Extremes, monitor::RunMonitor},
 };
 
-/// Part of a cell by which a surface must lie below the original face to be a crater.
+/// Part of a cell by which a surface must lie below the original face to be a crater, and by which a plate must be thinner.
 const NOTICEABLE: f64 = 0.1;
+const THINNER: f64 = 0.25;
 
 /// Part of a projectile below which what has come off it is not told apart: rounding of the sums.
 const WHOLE: f64 = 1e-9;
@@ -52,7 +54,12 @@ pub(super) fn complete(run: &Axisymmetric<'_>, result: &mut RunResult, monitor: 
     result.projectile_final_mass = Some(mass);
     let shapes = Shapes {
         crater: if solid {
-            crater::profile(&solver.bodies[1..], &solver.mesh, run.depth)
+            crater::profile(
+                &solver.bodies[1..],
+                &solver.mesh,
+                run.depth,
+                run.floor.flight(),
+            )
         } else {
             Vec::new()
         },
@@ -119,18 +126,49 @@ fn details(run: &Axisymmetric<'_>, crater: &[[f64; 2]]) -> Vec<Detail> {
     let Some(extent) = extent(run.scenario) else {
         return details;
     };
-    let (mouth, volume) = mouth(crater, NOTICEABLE * solver.mesh.cell);
+    let thickness: f64 = extent.layers.iter().sum();
     details.extend([
         Detail::new("modelled target radius", "mm", extent.radius * 1e3),
-        Detail::new(
-            "modelled target depth",
-            "mm",
-            extent.layers.iter().sum::<f64>() * 1e3,
+        Detail::new("modelled target depth", "mm", thickness * 1e3),
+    ]);
+    // The face of a plate that bends lies below where it was far beyond the crater.
+    let is_free = run.scenario.rear_face() == Some(RearFaceCondition::Free);
+    let (names, (mouth, volume)) = match is_free {
+        true => (
+            [
+                "crater diameter where the target is thinner",
+                "crater volume by loss of thickness",
+            ],
+            mouth(
+                &thinning(solver, crater, thickness),
+                THINNER * solver.mesh.cell,
+            ),
         ),
-        Detail::new("crater diameter at the original face", "mm", 2e3 * mouth),
-        Detail::new("crater volume below the original face", "mm3", volume * 1e9),
+        false => (
+            [
+                "crater diameter at the original face",
+                "crater volume below the original face",
+            ],
+            mouth(crater, NOTICEABLE * solver.mesh.cell),
+        ),
+    };
+    details.extend([
+        Detail::new(names[0], "mm", 2e3 * mouth),
+        Detail::new(names[1], "mm3", volume * 1e9),
     ]);
     details
+}
+
+/// How much thinner the target is than it was at the places of a crater's profile [m].
+fn thinning(solver: &Grid, crater: &[[f64; 2]], thickness: f64) -> Vec<[f64; 2]> {
+    let Some(last) = solver.bodies.last() else {
+        return Vec::new();
+    };
+    let places = crater.iter().filter_map(|&[radius, face]| {
+        let rear = crater::rear(last, radius, &solver.mesh)?;
+        Some([radius, thickness - (rear - face)])
+    });
+    places.collect()
 }
 
 /// Radius of a crater at the original face [m] and its volume below that face [m3]: from the axis outwards to where the surface is

@@ -6,7 +6,7 @@ use super::{
     axial,
     body::Body,
     crater,
-    end::Window,
+    end::{Window, is_held},
     floor::Floor,
     results,
     setup::{build, cell},
@@ -20,6 +20,7 @@ use crate::{
     material::Material,
     options::{AxiOptions, Eos},
     outcome::{Outcome, RunResult, Termination},
+    problem::RearFaceCondition,
     scenario::{Plate, TargetBody},
     solver::{
         Control,
@@ -47,8 +48,9 @@ pub(crate) struct Axisymmetric<'a> {
     pub(super) scenario: &'a Scenario,
     pub(super) grid: Grid,
     pub(super) window: Window,
-    floor: Floor,
-    /// Depth of the crater floor [m], and whether the last step left it where it was or higher.
+    pub(super) floor: Floor,
+    /// Depth of the crater floor [m], from the face of a target that flies where its centre of mass carries it, and whether the last step left it where it
+    /// was or higher.
     pub(super) depth: f64,
     floor_stopped: bool,
     /// Whether the projectile presses on the target in the step that comes next.
@@ -204,6 +206,14 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
         if grid.bodies.len() > 1 {
             let elapsed = grid.time - self.before;
             self.floor.follow(&grid.bodies[1], &grid.mesh, elapsed);
+            if !is_held(self.scenario) && self.scenario.rear_face() == Some(RearFaceCondition::Free)
+            {
+                let layers = grid.sums[1..].iter();
+                let sum = layers.fold((0.0, 0.0), |(mass, momentum), layer| {
+                    (mass + layer.mass, momentum + layer.momentum)
+                });
+                self.floor.fly(sum, elapsed);
+            }
             let tip = || {
                 let pushes = self.touches.then_some(&grid.bodies[0])?;
                 crater::ends(pushes, &grid.mesh).map(|(_, tip)| tip)
@@ -260,7 +270,7 @@ impl<'a> Solver<'a> for Axisymmetric<'a> {
     }
 
     fn sample(&self, _: &RunMonitor) -> Sample {
-        axial::sample(&self.grid, self.depth)
+        axial::sample(&self.grid, self.depth, self.floor.flight())
     }
 
     fn gauges(&self, gauges: &[Gauge]) -> Vec<ElementState> {

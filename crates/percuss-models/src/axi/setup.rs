@@ -187,30 +187,8 @@ fn projectile(
         velocity: speed,
         temperature,
     };
-    let surface = |depth: f64, _: f64| nose_radius(rod.nose, rod.diameter, -depth);
+    let surface = |depth: f64, _: f64| rod.nose.radius(rod.diameter, -depth);
     filling.fill(surface, control)
-}
-
-/// Radius of a projectile at a distance behind its tip [m].
-fn nose_radius(nose: Nose, diameter: f64, behind: f64) -> f64 {
-    let radius = 0.5 * diameter;
-    let length = nose.length(diameter);
-    if behind >= length {
-        return radius;
-    }
-    if behind <= 0.0 {
-        return 0.0;
-    }
-    match nose {
-        Nose::Flat => radius,
-        Nose::Hemisphere => (radius * radius - (radius - behind).powi(2)).sqrt(),
-        Nose::Cone { .. } => radius * behind / length,
-        Nose::Ogive { crh } => {
-            let arc = crh * diameter;
-            let along = length - behind;
-            (arc * arc - along * along).sqrt() - (arc - radius)
-        }
-    }
 }
 
 /// Whether contact follows the surface of the projectile. A flat face has its normals from the nodes, what is taken out of a body leaves no
@@ -258,7 +236,7 @@ pub(super) fn build(
         ContactKind::Frictional => Contact::Frictional(options.friction()),
     };
     let surface = follows_surface(scenario).then(|| {
-        let radius = |behind| nose_radius(rod.nose, rod.diameter, behind);
+        let radius = |behind| rod.nose.radius(rod.diameter, behind);
         Surface::new(radius, rod.length, mesh.cell)
     });
     let mut bodies = vec![Body::set_up(rod_law, particles, control)?];

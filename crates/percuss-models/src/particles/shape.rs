@@ -122,23 +122,6 @@ impl Shape {
         2.0 * radius * (self.length - nose) + of_nose
     }
 
-    /// Half of the width at a distance behind the tip [m].
-    fn half_width(&self, behind: f64) -> f64 {
-        let (radius, nose) = (self.radius, self.nose_length());
-        if behind >= nose {
-            return radius;
-        }
-        match self.nose {
-            Nose::Flat => radius,
-            Nose::Cone { .. } => radius * behind / nose,
-            Nose::Hemisphere => (behind * (2.0 * radius - behind)).sqrt(),
-            Nose::Ogive { crh } => {
-                let arc = 2.0 * crh * radius;
-                (arc * arc - (nose - behind).powi(2)).sqrt() - (arc - radius)
-            }
-        }
-    }
-
     /// Distance of the centre of area behind the tip [m], and the second moment of area about it, in the plane [m4].
     pub(super) fn moments(&self) -> (f64, f64) {
         let (_, centre, second) = self.integrals(|half| [2.0 * half, half * half / 3.0]);
@@ -157,7 +140,7 @@ impl Shape {
         let nose = self.nose_length();
         let mut sums = [0.0; 3];
         let mut add = |weight: f64, behind: f64| {
-            let [size, square] = section(self.half_width(behind));
+            let [size, square] = section(self.nose.radius(2.0 * self.radius, behind));
             let size = weight * size;
             sums[0] += size;
             sums[1] += size * behind;

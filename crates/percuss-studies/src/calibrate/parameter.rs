@@ -182,8 +182,7 @@ impl Fitted {
 
     /// Half of the range that holds 68 % beforehand: the standard deviation of a normal distribution.
     pub(super) fn prior_deviation(&self) -> f64 {
-        const ONE_BELOW: f64 = 0.158_655_253_931_457_05;
-        0.5 * (self.quantile(1.0 - ONE_BELOW) - self.quantile(ONE_BELOW))
+        half_of_68(|u| self.quantile(u))
     }
 
     pub(super) fn bounds(&self) -> Bounds {
@@ -262,6 +261,12 @@ impl Place {
             ..diagnostic
         })
     }
+}
+
+/// Half of the range that holds 68 %, given the quantiles: the standard deviation of a normal distribution.
+pub(super) fn half_of_68(quantile: impl Fn(f64) -> f64) -> f64 {
+    const ONE_BELOW: f64 = 0.158_655_253_931_457_05;
+    0.5 * (quantile(1.0 - ONE_BELOW) - quantile(ONE_BELOW))
 }
 
 /// An error that points at a part of what was given on the command line.

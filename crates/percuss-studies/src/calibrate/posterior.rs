@@ -10,6 +10,7 @@ use super::{
     fit::Fit,
     heard,
     noise::{SCATTER, independent},
+    parameter::half_of_68,
     predictive::PROBABILITIES,
     sampler,
 };
@@ -142,13 +143,12 @@ fn inside(problem: &Problem, index: usize, best: f64, mut away: f64) -> f64 {
 
 /// Widths of the posterior over those of the priors, both as half of the range that holds 68 %, and correlations.
 pub(super) fn shape(problem: &Problem, sample: &Sample) -> (Vec<f64>, DMatrix<f64>) {
-    const ONE_BELOW: f64 = 0.158_655_253_931_457_05;
     let values: Vec<Vec<f64>> = (0..problem.fitted.len())
         .map(|i| sample.values(i))
         .collect();
     let width = |(values, parameter): (&Vec<f64>, &super::Fitted)| {
         let sorted = sorted(values.iter().copied());
-        let half = 0.5 * (quantile(&sorted, 1.0 - ONE_BELOW) - quantile(&sorted, ONE_BELOW));
+        let half = half_of_68(|u| quantile(&sorted, u));
         half / parameter.prior_deviation()
     };
     let widths = values.iter().zip(&problem.fitted).map(width).collect();

@@ -108,9 +108,25 @@ impl Quality {
 /// States of the sample that are put through the model.
 pub(super) fn draws(sample: Option<&Sample>) -> Vec<&[f64]> {
     sample.map_or_else(Vec::new, |sample| {
-        let every = sample.kept().count().div_ceil(DRAWS).max(1);
+        let every = stride(sample.kept().count(), sample.walkers());
         sample.kept().step_by(every).collect()
     })
+}
+
+/// How far apart draws are in a number of states of walkers in turn: without a common divisor with theirs, so that draws come from each.
+fn stride(states: usize, walkers: usize) -> usize {
+    let shares = |stride: usize| {
+        let (mut large, mut small) = (walkers, stride);
+        while small > 0 {
+            (large, small) = (small, large % small);
+        }
+        large > 1
+    };
+    let mut stride = states.div_ceil(DRAWS).max(1);
+    while shares(stride) {
+        stride += 1;
+    }
+    stride
 }
 
 /// What the model says of all measured values, those kept out of the fit included.
@@ -185,6 +201,19 @@ pub(super) fn mixture_quantile(parts: &[(f64, f64)], probability: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn draws_come_from_every_walker() {
+        for (walkers, steps) in [(32, 4000), (8, 60), (16, 2000), (3, 400), (10, 1)] {
+            let states = walkers * steps;
+            let every = stride(states, walkers);
+            let drawn = (0..states).step_by(every).map(|state| state % walkers);
+            let drawn: std::collections::BTreeSet<usize> = drawn.collect();
+            assert_eq!(drawn.len(), walkers, "{walkers} {steps}");
+            let draws = states.div_ceil(every);
+            assert!(draws <= DRAWS && (draws > DRAWS / 4 || every == 1));
+        }
+    }
 
     #[test]
     fn quantiles_are_the_tabled_ones() {

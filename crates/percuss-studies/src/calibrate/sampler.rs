@@ -172,6 +172,11 @@ pub(super) fn sample(
 }
 
 impl Sample {
+    /// Walkers of an ensemble.
+    pub(super) fn walkers(&self) -> usize {
+        self.sampling.walkers
+    }
+
     /// Every kept state, ensemble by ensemble, step by step, walker by walker.
     pub fn kept(&self) -> impl Iterator<Item = &[f64]> {
         let from = self.sampling.burn_in * self.sampling.walkers;

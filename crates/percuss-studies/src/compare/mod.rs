@@ -102,7 +102,7 @@ impl ExperimentRecord {
 /// entries does not depend on the order in which runs end.
 ///
 /// # Errors
-/// [`Error::Cancelled`] when `observer` says so.
+/// [`Error::Input`] from [`Scenario::check`] at one of the velocities; [`Error::Cancelled`] when `observer` says so.
 pub fn compare(
     models: &[&dyn Model],
     axisymmetric: Option<Request>,
@@ -113,6 +113,9 @@ pub fn compare(
     let all = jobs::all_of(models, axisymmetric)?;
     let models: Vec<&dyn Model> = all.iter().map(|job| job.model()).collect();
     let runs: Vec<(Scenario, Regime)> = jobs::scenarios(scenario, velocities);
+    for (scenario, _) in &runs {
+        scenario.check()?;
+    }
     let memory = jobs::memory(&all, &runs);
     let results = cost::within_memory(memory, || jobs::run(&all, &runs, observer))?;
     let recommended = runs

@@ -28,7 +28,7 @@ macro_rules! files {
 /// Built-in files of tests. Adding one is one file in `data/experiments/` and one line here.
 const FILES: &[(&str, &str)] = files!["taylor.csv", "plates.csv", "experiments.csv"];
 
-/// A published test or ballistic limit. SI units.
+/// A published test or ballistic limit. SI units, but for the obliquity in degrees.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Experiment {
     /// Its id, unique among all tests.

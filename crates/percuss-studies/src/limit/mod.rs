@@ -27,12 +27,15 @@ mod study_tests;
 mod tests;
 mod warnings;
 
+use std::ops::RangeInclusive;
+
 use serde::Serialize;
 
 use crate::{
     Error, Scenario,
     analytic::InputLimit,
     axisymmetric::Request,
+    check::{Diagnostic, limits},
     compare::{Choice, ExperimentRecord},
     cost, limit_error,
     model::{Estimate, Model},
@@ -72,6 +75,18 @@ pub enum Tolerance {
 }
 
 impl Tolerance {
+    /// Absolute widths that are allowed [m/s].
+    pub const WIDTHS: RangeInclusive<f64> = 1e-6..=1000.0;
+    /// Parts of the velocity that are allowed.
+    pub const PARTS: RangeInclusive<f64> = 1e-8..=0.5;
+
+    fn is_allowed(self) -> bool {
+        match self {
+            Self::Absolute(width) => Self::WIDTHS.contains(&width),
+            Self::Relative(part) => Self::PARTS.contains(&part),
+        }
+    }
+
     /// Width at a velocity [m/s].
     fn at(self, velocity: f64) -> f64 {
         match self {
@@ -92,6 +107,28 @@ pub struct Search {
     pub points: usize,
     /// Search with the axisymmetric model, beside the models. Beyond the budget there is a reason in place of a limit.
     pub axisymmetric: Option<Request>,
+}
+
+impl Search {
+    fn check(&self) -> Result<(), Error> {
+        let Range { from, to } = self.range;
+        let allowed = limits::IMPACT_VELOCITY;
+        let wrong = if !(allowed.allow(from) && allowed.allow(to) && from < to) {
+            let message = format!("the range {from} to {to} m/s cannot be searched");
+            let help = format!(
+                "allowed: {} to {} m/s, the end above the start",
+                allowed.min, allowed.max
+            );
+            Diagnostic::at("range", message, help)
+        } else if !self.tolerance.is_allowed() {
+            let message = format!("{:?} is out of range", self.tolerance);
+            let help = "allowed: 1e-6 to 1000 m/s, or parts of 1e-8 to 0.5";
+            Diagnostic::at("tolerance", message, help)
+        } else {
+            return Ok(());
+        };
+        Err(wrong.in_no_file("search").into())
+    }
 }
 
 impl Default for Search {
@@ -241,13 +278,15 @@ const ONE_DIMENSIONAL: f64 = 0.02;
 /// does not apply, fails or finds none leaves the reason in its entry and never stops the others.
 ///
 /// # Errors
-/// [`Error::Cancelled`] when `observer` says so.
+/// [`Error::Input`] for a range or tolerance that is not allowed; [`Error::Cancelled`] when `observer` says so.
 pub fn limits(
     models: &[&dyn Model],
     scenario: &Scenario,
     search: &Search,
     observer: &mut Observer<'_>,
 ) -> Result<Limits, Error> {
+    search.check()?;
+    scenario.check()?;
     let free = with_free_rear_face(scenario);
     let scenario = free.as_ref().unwrap_or(scenario);
     let of_models = models.iter().map(|model| cost::of_run(*model, scenario));

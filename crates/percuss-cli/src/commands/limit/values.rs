@@ -12,9 +12,6 @@ const RANGE: &str =
     "allowed: FROM..TO such as 100..400 or \"0.1..0.4 km/s\", in m/s unless a unit follows";
 const TOLERANCE: &str =
     "allowed: a speed such as \"0.5 m/s\", or a percentage of the limit such as \"0.2 %\"";
-/// Allowed widths of the bracket [m/s], and the same as fractions of the velocity.
-const WIDTHS: std::ops::RangeInclusive<f64> = 1e-6..=1000.0;
-const PARTS: std::ops::RangeInclusive<f64> = 1e-8..=0.5;
 /// Largest number of residual velocities.
 const MOST_POINTS: u16 = 200;
 
@@ -88,7 +85,7 @@ pub fn tolerance(text: &str) -> Result<Tolerance, ValueError> {
     if let Some(number) = text.trim().strip_suffix('%') {
         let part = number.trim().parse::<f64>();
         let part = part.map_err(|_| ValueError::Part(text.to_owned()))? / 100.0;
-        return match PARTS.contains(&part) {
+        return match Tolerance::PARTS.contains(&part) {
             true => Ok(Tolerance::Relative(part)),
             false => Err(outside()),
         };
@@ -96,7 +93,7 @@ pub fn tolerance(text: &str) -> Result<Tolerance, ValueError> {
     let width = Velocity::from_str(text)
         .map_err(ValueError::Tolerance)?
         .si();
-    match WIDTHS.contains(&width) {
+    match Tolerance::WIDTHS.contains(&width) {
         true => Ok(Tolerance::Absolute(width)),
         false => Err(outside()),
     }
@@ -105,7 +102,7 @@ pub fn tolerance(text: &str) -> Result<Tolerance, ValueError> {
 /// Reads a velocity span with its unit.
 pub fn span(text: &str) -> Result<f64, ValueError> {
     let span = Velocity::from_str(text).map_err(ValueError::Span)?.si();
-    match WIDTHS.contains(&span) {
+    match Tolerance::WIDTHS.contains(&span) {
         true => Ok(span),
         false => Err(ValueError::LongSpan(text.trim().to_owned())),
     }

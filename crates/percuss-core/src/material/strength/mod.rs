@@ -100,6 +100,12 @@ pub trait StrengthLaw {
 
     /// Checks the parameters' ranges, reporting keys relative to the law's table.
     fn check(&self, check: &mut Check<'_>);
+
+    /// Of a law of the caller's own, text that differs between laws with different results, numbers with all their digits included: a checkpoint belongs to it. `None`
+    /// refuses checkpoints.
+    fn fingerprint(&self) -> Option<String> {
+        None
+    }
 }
 
 macro_rules! strength_laws {

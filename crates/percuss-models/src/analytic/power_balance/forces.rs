@@ -6,7 +6,7 @@ use super::{
     fields::{Layer, Rim, Slip, hole, punch, rim},
     motion::{Impact, MotionState},
 };
-use crate::{analytic::nose_shape::radius, regime::nose_factor};
+use crate::regime::nose_factor;
 
 /// Layers of the plate.
 pub(super) const LAYERS: usize = 16;
@@ -98,7 +98,7 @@ impl Impact {
 
     /// Layers of equal thickness around a nose that has sunk so far [m].
     pub fn layers<const COUNT: usize>(&self, sunk: f64) -> [Layer; COUNT] {
-        let square = |behind: f64| radius(self.nose, self.diameter, behind).powi(2);
+        let square = |behind: f64| self.nose.radius(self.diameter, behind).powi(2);
         let height = self.thickness / COUNT as f64;
         std::array::from_fn(|i| {
             let behind = sunk - i as f64 * height;
@@ -112,7 +112,7 @@ impl Impact {
 
     /// Plastic and inertial force on a pointed or round nose [N]; `extent` is that of the field before, then of this one.
     pub fn opening(&self, sunk: f64, relative: f64, extent: &mut Option<f64>) -> (f64, f64) {
-        let at = |behind: f64| radius(self.nose, self.diameter, behind);
+        let at = |behind: f64| self.nose.radius(self.diameter, behind);
         let (front, back) = (at(sunk), at(sunk - self.thickness));
         let contact = PI * (front * front - back * back);
         if contact <= 0.0 {

@@ -90,7 +90,7 @@ pub(super) struct Perforation {
     pub perforated: bool,
     /// Largest force on the projectile [N].
     pub peak_force: f64,
-    /// Times at which the plate began to dish, the plug to slip, and the band failed [s].
+    /// Times at which the plate began to dish and the plug to slip [s].
     pub stages: [Option<f64>; 2],
     /// All moments, where they were asked for.
     pub moments: Vec<MotionState>,

@@ -74,12 +74,21 @@ pub(super) fn not_applicable(scenario: &Scenario) -> Option<Refusal> {
             "the target resistance model `expanding-cavity` needs a target of one layer".into(),
         );
     };
-    if scenario.resistance.is_some() {
-        let refusal = || {
-            Refusal::new("a resistance law of the caller's own does not depend on the temperature of the target")
-                .with_remedy("remove `target.temperature`, or take it into account in the law")
-        };
-        return scenario.has_heated_target().then(refusal);
+    if let Some(law) = &scenario.resistance {
+        if scenario.has_heated_target() {
+            let reason = "a resistance law of the caller's own does not depend on the temperature of the target";
+            let remedy = "remove `target.temperature`, or take it into account in the law";
+            return Some(Refusal::new(reason).with_remedy(remedy));
+        }
+        let speeds = [0.0, scenario.impact_velocity].into_iter();
+        let mut pressures = speeds.map(|speed| (speed, law.0.pressure(0.0, speed)));
+        let wrong = pressures.find(|(_, pressure)| !(*pressure >= 0.0 && pressure.is_finite()));
+        return wrong.map(|(speed, pressure)| {
+            let reason = format!(
+                "the resistance law gives {pressure} Pa at the face and a speed of {speed} m/s"
+            );
+            Refusal::new(reason).with_remedy("allowed: a finite pressure, 0 or more")
+        });
     }
     let yields = plate
         .material

@@ -84,7 +84,7 @@ pub(super) fn build(scenario: &Scenario, options: &RodOptions) -> Grid<RodLaw> {
                 let cells = ((all * thickness / total).round() as usize).max(1);
                 let law = law(material, area, factor, options, scenario);
                 let mut slab = slab(law, start, thickness, cells);
-                let flow_stress = material.strength.law().flow_stress_at_unit_strain(material);
+                let flow_stress = plate.flow_stress_at_unit_strain();
                 slab.line_friction =
                     options.border_shear * PI * column_diameter * flow_stress.unwrap_or(0.0);
                 slabs.push(slab);
