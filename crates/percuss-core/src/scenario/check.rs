@@ -10,7 +10,7 @@ use crate::{
 
 impl Scenario {
     /// Checks bodies, materials and impact velocity as those of a case file are, and the ranges of options. A case that was read has passed;
-    /// [`crate::solver::run`] asks again, because its fields are public.
+    /// the function `run` asks again, because its fields are public.
     ///
     /// # Errors
     /// [`Error::Input`] with the key of the first value that is not allowed, the allowed range and a remedy.
