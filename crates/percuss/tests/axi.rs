@@ -256,7 +256,32 @@ fn a_free_disc_that_is_carried_along_is_not_perforated() {
         let result = run(&text);
         assert_eq!(result.outcome, Outcome::Separated, "{radius}");
         assert!(result.residual_velocity.unwrap() > 0.0);
+        // It flies several times its thickness, and has next to no crater.
+        assert!(result.depth_of_penetration.unwrap() < 1e-3, "{radius}");
+        let model = model::model("axi").unwrap();
+        let recorded = model::run(model, &scenario(&text), &mut Control::recording()).unwrap();
+        let history = recorded.history.unwrap();
+        let first = &history.samples[0];
+        assert!((first.tip_velocity - 50.0).abs() < 1e-9);
+        assert_eq!([first.interface_velocity, first.contact_force], [0.0; 2]);
     }
+}
+
+#[test]
+fn the_crater_of_a_plate_that_bends_is_where_it_is_thinner() {
+    let width = |speed: f64| {
+        let result = run(&format!(
+            "projectile = {{ material = 'copper', length = '20 mm', diameter = '8 mm', impact_velocity = '{speed} m/s' }}\n\
+             target = {{ material = '6061-t6', thickness = '10 mm', back_face = 'free' }}\n\
+             axi = {{ cells_per_radius = 4 }}"
+        ));
+        let mut details = result.details.iter();
+        let crater = details.find(|detail| detail.name.starts_with("crater diameter"));
+        crater.unwrap().value
+    };
+    // Cells are 1 mm wide; the rod spreads to 14.6 mm in front of a plate that has bent out to 36 mm from the axis.
+    assert!((6.0..14.6).contains(&width(300.0)), "{}", width(300.0));
+    assert_eq!(width(50.0), 0.0);
 }
 
 #[test]

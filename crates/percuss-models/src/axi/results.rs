@@ -132,8 +132,9 @@ fn details(run: &Axisymmetric<'_>, crater: &[[f64; 2]]) -> Vec<Detail> {
         Detail::new("modelled target depth", "mm", thickness * 1e3),
     ]);
     // The face of a plate that bends lies below where it was far beyond the crater.
-    let is_free = run.scenario.rear_face() == Some(RearFaceCondition::Free);
-    let (names, (mouth, volume)) = match is_free {
+    let is_plate = run.scenario.rear_face() == Some(RearFaceCondition::Free)
+        && run.scenario.only_layer().is_some();
+    let (names, (mouth, volume)) = match is_plate {
         true => (
             [
                 "crater diameter where the target is thinner",
@@ -159,16 +160,19 @@ fn details(run: &Axisymmetric<'_>, crater: &[[f64; 2]]) -> Vec<Detail> {
     details
 }
 
-/// How much thinner the target is than it was at the places of a crater's profile [m].
+/// How much thinner the target is than it was at the places of a crater's profile [m]; in a hole, all of it.
 fn thinning(solver: &Grid, crater: &[[f64; 2]], thickness: f64) -> Vec<[f64; 2]> {
     let Some(last) = solver.bodies.last() else {
         return Vec::new();
     };
+    let edge = crater.first().map_or(0.0, |place| place[0]);
+    let hole = [0.0, edge].map(|radius| [radius, thickness]);
     let places = crater.iter().filter_map(|&[radius, face]| {
         let rear = crater::rear(last, radius, &solver.mesh)?;
         Some([radius, thickness - (rear - face)])
     });
-    places.collect()
+    let hole = hole.into_iter().filter(|_| edge > 0.0);
+    hole.chain(places).collect()
 }
 
 /// Radius of a crater at the original face [m] and its volume below that face [m3]: from the axis outwards to where the surface is
