@@ -146,6 +146,8 @@ def test_a_law_without_a_single_flow_stress_is_refused() -> None:
         percuss.run(case, projectile_law=lambda _strain, rate, _temperature: 300e6 / (1.0 + 1e-3 * rate))
     with pytest.raises(ValueError, match="falls with the plastic strain by more than three times the shear modulus"):
         percuss.run(case, projectile_law=lambda strain, *_: max(300e6 - 2e11 * strain, 200e6))
+    with pytest.raises(ValueError, match="flow stress at a plastic strain of 0.1"):
+        percuss.run(case, projectile_law=lambda strain, *_: max(300e6 - 2e11 * strain, 0.0))
     # Softening that a step can follow is allowed.
     percuss.run(case, projectile_law=lambda strain, *_: 300e6 * math.exp(-0.2 * strain))
 
