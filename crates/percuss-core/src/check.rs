@@ -1,5 +1,7 @@
 //! Range checks that remember which key they looked at.
 
+use std::fmt::Display;
+
 use crate::{
     error::{InputError, Subject},
     units::{Dimension, Quantity, display, significant},
@@ -36,6 +38,8 @@ pub struct Diagnostic {
     pub message: String,
     /// What is allowed and what to do.
     pub help: String,
+    /// Whether a value is outside its range, wherever it stands; otherwise it does not fit what else is given.
+    pub out_of_range: bool,
 }
 
 impl Diagnostic {
@@ -67,6 +71,7 @@ impl Diagnostic {
             key: key.to_owned(),
             message: message.into(),
             help: help.into(),
+            out_of_range: false,
         }
     }
 
@@ -76,11 +81,6 @@ impl Diagnostic {
             subject: Subject::Material,
             ..self
         }
-    }
-
-    /// Whether it is a number outside its range, and not a key without effect.
-    pub(crate) fn is_out_of_range(&self) -> bool {
-        self.message.ends_with("is out of range")
     }
 
     /// The error of something that comes from no file; `name` stands for it.
@@ -158,6 +158,16 @@ impl<'a> Check<'a> {
         });
     }
 
+    /// Reports a value that is out of range at a key; `help` says what is allowed.
+    pub fn out_of_range(&mut self, key: &str, value: impl Display, help: impl Into<String>) {
+        let message = format!("{value} is out of range");
+        self.diagnostics.push(Diagnostic {
+            subject: self.subject,
+            out_of_range: true,
+            ..Diagnostic::at(&self.key(key), message, help)
+        });
+    }
+
     /// Reports each key that is given where it may not be.
     pub fn refuse(&mut self, keys: &[(&str, bool)], message: impl Fn(&str) -> String, help: &str) {
         for (key, _) in keys.iter().filter(|(_, given)| *given) {
@@ -173,9 +183,9 @@ impl<'a> Check<'a> {
         limits: Limits,
     ) {
         if let Some(value) = value.into().filter(|value| !limits.allow(value.si())) {
-            self.fail(
+            self.out_of_range(
                 key,
-                format!("{value} is out of range"),
+                value,
                 format!(
                     "allowed: {} to {}{}",
                     display::<D>(limits.min),
@@ -189,9 +199,9 @@ impl<'a> Check<'a> {
     /// Reports a plain number outside its limits, where one is given.
     pub fn number(&mut self, key: &str, value: impl Into<Option<f64>>, limits: Limits) {
         if let Some(value) = value.into().filter(|value| !limits.allow(*value)) {
-            self.fail(
+            self.out_of_range(
                 key,
-                format!("{} is out of range", significant(value, 6)),
+                significant(value, 6),
                 format!(
                     "allowed: {} to {}",
                     significant(limits.min, 6),

@@ -132,7 +132,7 @@ impl Material {
             check.fail(
                 key,
                 format!(
-                    "{what} of {} is {ratio:.2e} of youngs_modulus = {}",
+                    "{what} is {}, {ratio:.2e} of youngs_modulus = {}",
                     Pressure::new(stress),
                     self.youngs_modulus
                 ),

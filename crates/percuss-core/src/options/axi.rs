@@ -176,11 +176,7 @@ impl AxiOptions {
             ("particles_per_side", self.particles_per_side, PARTICLES),
         ] {
             if let Some(value) = value.filter(|value| !(least..=most).contains(value)) {
-                check.fail(
-                    key,
-                    format!("{value} is out of range"),
-                    format!("allowed: {least} to {most}"),
-                );
+                check.out_of_range(key, value, format!("allowed: {least} to {most}"));
             }
         }
         for (key, number, limits) in [

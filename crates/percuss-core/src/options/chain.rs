@@ -101,9 +101,9 @@ impl ChainOptions {
                 } else {
                     String::new()
                 };
-                check.fail(
+                check.out_of_range(
                     key,
-                    format!("{elements} elements is out of range"),
+                    format!("{elements} elements"),
                     format!("allowed: 1 to {MAX_ELEMENTS}{size}"),
                 );
             }

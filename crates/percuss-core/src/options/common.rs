@@ -23,7 +23,7 @@ pub(super) fn check_viscosity(check: &mut Check<'_>, viscosity: Option<Artificia
 pub(super) fn check_end(check: &mut Check<'_>, end_time: Option<Time>, max_steps: Option<u64>) {
     check.quantity("end_time", end_time, limits::TIME);
     if max_steps == Some(0) {
-        check.fail("max_steps", "0 steps is out of range", "allowed: 1 or more");
+        check.out_of_range("max_steps", "0 steps", "allowed: 1 or more");
     }
 }
 

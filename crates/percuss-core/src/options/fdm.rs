@@ -136,9 +136,9 @@ impl FdmOptions {
             ("target_elements", self.target_elements),
         ] {
             if let Some(elements) = elements.filter(|n| !(1..=MAX_ELEMENTS).contains(n)) {
-                check.fail(
+                check.out_of_range(
                     key,
-                    format!("{elements} cells is out of range"),
+                    format!("{elements} cells"),
                     format!("allowed: 1 to {MAX_ELEMENTS}"),
                 );
             }

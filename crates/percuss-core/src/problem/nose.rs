@@ -107,9 +107,9 @@ impl NoseGeometry {
 /// Reports an angle of a cone out of range; `place` says between what it is.
 fn check_angle(key: &str, angle: Angle, allowed: Limits, place: &str, check: &mut Check<'_>) {
     if !allowed.allow(angle.si()) {
-        check.fail(
+        check.out_of_range(
             &format!("cone.{key}"),
-            format!("{angle} is out of range"),
+            angle,
             format!(
                 "allowed: {} to {} {place}; for a flat end write nose = \"flat\"",
                 Angle::new(allowed.min),
@@ -129,9 +129,9 @@ fn check_length(
 ) {
     let [min, max] = [diameters.min * diameter, diameters.max * diameter];
     if !(Limits { min, max }).allow(length.si()) {
-        check.fail(
+        check.out_of_range(
             &format!("ogive.{key}"),
-            format!("{length} is out of range"),
+            length,
             format!(
                 "allowed: {} to {}, that is {} to {} diameters of the shank; the least is a hemisphere",
                 Length::new(min),

@@ -143,9 +143,9 @@ impl Projectile {
             .obliquity
             .filter(|angle| !allowed.contains(&angle.si()))
         {
-            check.fail(
+            check.out_of_range(
                 "obliquity",
-                format!("{obliquity} is out of range"),
+                obliquity,
                 format!(
                     "allowed: {} to {}, between the path and the normal of the struck face: 0 deg is normal impact",
                     Angle::new(limits::OBLIQUITY.min),

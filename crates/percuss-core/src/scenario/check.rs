@@ -34,7 +34,7 @@ impl Scenario {
         let mut of_options = Vec::new();
         let options = &mut Check::new(&mut of_options);
         self.options.check(options, &target);
-        of_options.retain(Diagnostic::is_out_of_range);
+        of_options.retain(|diagnostic: &Diagnostic| diagnostic.out_of_range);
         let layers = self.layers().iter();
         let own = (&self.projectile.material, &self.projectile.material_id);
         for (material, id) in

@@ -6,13 +6,13 @@ use super::{
 };
 use crate::{
     Scenario,
-    material::{Material, Reached},
+    material::{Material, Reached, Strength},
     outcome::{Outcome, RunResult},
     problem::{Nose, RearFaceCondition},
     regime::is_thinner,
     scenario::each_once,
     solver::Particle,
-    units::Length,
+    units::significant,
     validity::THROUGH_FIXED_FACE,
 };
 
@@ -121,14 +121,15 @@ pub(super) fn warnings(run: &Axisymmetric<'_>, result: &RunResult) -> Vec<String
         .skip(1)
         .any(|(material, _)| material.damage.is_some());
     if free && is_plate(run.scenario) && can_fail && run.scenario.projectile.nose == Nose::Flat {
-        let shank = run.scenario.projectile.diameter;
+        let rod = &run.scenario.projectile;
+        let has_hardening = !matches!(rod.material.strength, Strength::PerfectlyPlastic(_));
         let spread = result
             .projectile_final_diameter
-            .filter(|diameter| *diameter > SPREAD * shank);
+            .filter(|diameter| !has_hardening && *diameter > SPREAD * rod.diameter);
         let spread = spread.map_or_else(String::new, |diameter| {
             format!(
-                ". They are lower where the face keeps its shape: this one spread to {}; see how much an elastic projectile changes",
-                Length::new(diameter)
+                ". A face that spreads raises them: this one did, to {} mm, without hardening in the projectile's record; compare an elastic projectile",
+                significant(1e3 * diameter, 3)
             )
         });
         warnings.push(format!(
